@@ -1,0 +1,45 @@
+#pragma once
+// A few rows of all ranks brought together at one of them, and results sent back.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "decomposition/exchange_plan.hpp"
+
+namespace sphdrop {
+
+/// The rank that holds most of something, the lowest of equals: where an interface is worked on. Collective.
+int rank_with_most(const Communicator& communicator, std::int64_t held);
+
+/// Rows that ranks contribute to an interface, gathered at its owner in ascending global id, so that what is computed
+/// there does not depend on who contributed what.
+class InterfaceGather {
+ public:
+  InterfaceGather() = default;
+
+  /// Collective. `ids` and `rows` (shape [n]): the global ids and local rows this rank contributes, in any order.
+  /// The tags `tag` and `tag + 1` keep its messages apart from others in flight.
+  InterfaceGather(const Communicator& communicator, std::span<const std::int64_t> ids,
+                  std::span<const std::int32_t> rows, int owner, int tag);
+
+  int owner() const { return owner_; }
+  /// At the owner the gathered ids, ascending; empty elsewhere.
+  std::span<const std::int64_t> ids() const { return ids_; }
+  /// At the owner the position of `id` among them, -1 if it is not there.
+  std::int32_t index_of(std::int64_t id) const;
+
+  /// Sends this rank's rows of the columns to the owner, where finish_gather stores them in ids() order.
+  void start_gather(std::span<const void* const> columns) { gather_.start(columns); }
+  void finish_gather(std::span<void* const> gathered) { gather_.finish(gathered); }
+  /// Sends the owner's results (ids() order) back; finish_scatter stores them in the rows they belong to.
+  void start_scatter(std::span<const void* const> results) { scatter_.start(results); }
+  void finish_scatter(std::span<void* const> columns) { scatter_.finish(columns); }
+
+ private:
+  int owner_ = 0;
+  std::vector<std::int64_t> ids_;
+  ExchangePlan gather_, scatter_;
+};
+
+}  // namespace sphdrop

@@ -1,0 +1,38 @@
+#pragma once
+// The snapshots of a run: numbered files and the index by which ParaView knows their times.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/snapshot.hpp"
+
+namespace sphdrop {
+
+/// Writes snapshot_000000.vtkhdf, snapshot_000001.vtkhdf, ... and after each of them snapshots.vtkhdf.series.
+class SnapshotSeries {
+ public:
+  /// Collective. Takes up the snapshots that are in `directory` already; SnapshotError on all ranks if one is not
+  /// readable.
+  SnapshotSeries(const Communicator& communicator, std::filesystem::path directory);
+
+  /// Collective. Writes the next snapshot and renews the index; returns the file's path. Snapshots at this time or
+  /// later, left over from before a restart, leave the index and are overwritten one by one.
+  std::filesystem::path write(const SnapshotHeader& header, const SnapshotRows& rows,
+                              std::span<const SnapshotColumn> columns);
+
+  /// Snapshots in the index.
+  std::int64_t count() const { return static_cast<std::int64_t>(times_.size()); }
+
+ private:
+  const Communicator& communicator_;
+  std::filesystem::path directory_;
+  std::vector<double> times_;  ///< of the snapshots, s, ascending; the same on every rank
+};
+
+/// "snapshot_000042.vtkhdf".
+std::string snapshot_file_name(std::int64_t number);
+
+}  // namespace sphdrop

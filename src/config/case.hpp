@@ -1,0 +1,124 @@
+#pragma once
+// A validated case: everything a run needs to know, in SI units.
+
+#include <cstdint>
+#include <string>
+
+namespace sphdrop {
+
+enum class Mode { paper };
+enum class DropShape { none, round, square };
+enum class DropArrangement { rings, lattice };
+enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall };
+enum class DeviatoricTrace { plane_strain, two_dimensional };
+enum class SurfaceTensionForm { none, conservative, curvature };
+
+/// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
+/// the table in config/parameter_table.cpp and nowhere else.
+///
+/// A default-constructed Case is all zeros and no valid case; parse_case_text (config/case_file.hpp) makes valid ones.
+struct Case {
+  std::string name;         ///< of the run's files; a single file name
+  Mode mode = Mode::paper;  ///< method.md's scheme as printed, completed where the print is silent
+
+  struct Resolution {
+    double spacing = 0;          ///< d, m
+    double smoothing_ratio = 0;  ///< h/d
+    bool operator==(const Resolution&) const = default;
+  } resolution;
+
+  struct Time {
+    double end = 0;            ///< s
+    double step = 0;           ///< s; 0: Eqs 40-42
+    double sound_cfl = 0;      ///< Eq 40's factor
+    double capillary_cfl = 0;  ///< Eq 41's factor
+    double viscous_cfl = 0;    ///< Eq 42's factor
+    bool operator==(const Time&) const = default;
+  } time;
+
+  struct Fluid {
+    double density = 0;      ///< rho0, kg/m3
+    double viscosity = 0;    ///< mu, Pa s; enters Eq 42 only
+    double sound_speed = 0;  ///< c_f, m/s
+    double artificial_viscosity_alpha = 0;
+    double artificial_viscosity_beta = 0;
+    std::int64_t density_correction_interval = 0;  ///< steps; 0: never
+    bool operator==(const Fluid&) const = default;
+  } fluid;
+
+  struct Drop {
+    DropShape shape = DropShape::none;
+    DropArrangement arrangement = DropArrangement::rings;
+    double diameter = 0;                    ///< D0 (round) or side (square), m
+    double velocity_x = 0, velocity_y = 0;  ///< m/s
+    double gap = 0;                         ///< at the start, between the surfaces of drop and solid, m
+    double centre_x = 0;                    ///< m; x = 0 at the left clamp's edge, or at the middle of a rigid wall
+    double jitter = 0;                      ///< of a lattice start, in units of d
+    std::int64_t seed = 0;
+    double oscillation_velocity = 0;  ///< V0, m/s
+    double oscillation_radius = 0;    ///< r0, m
+    bool operator==(const Drop&) const = default;
+  } drop;
+
+  struct Solid {
+    SolidKind kind = SolidKind::none;
+    double length = 0;                                                 ///< L, free length, m (rigid wall: its width)
+    double thickness = 0;                                              ///< H, m
+    double density = 0;                                                ///< kg/m3
+    double youngs_modulus = 0;                                         ///< E, Pa
+    double poisson_ratio = 0;                                          ///< nu
+    DeviatoricTrace deviatoric_trace = DeviatoricTrace::plane_strain;  ///< k = 1/3 or 1/2
+    double artificial_viscosity_alpha = 0;
+    double artificial_viscosity_beta = 0;
+    double artificial_stress_coefficient = 0;  ///< eps, Eq 20
+    double clamp_length = 0;                   ///< m
+    std::int64_t clamp_layers = 0;
+    double initial_tip_velocity = 0;  ///< m/s, along +y (up); of the cantilever's first bending mode
+    bool operator==(const Solid&) const = default;
+  } solid;
+
+  struct Contact {
+    double stiffness = 0;       ///< Eq 24's 0.1
+    double distance_ratio = 0;  ///< d0/d
+    double overlap_limit = 0;   ///< d0 - d_p at which the run stops, in units of d0
+    bool operator==(const Contact&) const = default;
+  } contact;
+
+  struct SurfaceTension {
+    SurfaceTensionForm form = SurfaceTensionForm::conservative;
+    double coefficient = 0;              ///< sigma, N/m
+    std::int64_t polynomial_points = 0;  ///< 3 or 5, Eq 28
+    double detection_displacement =
+        0;  ///< in units of d: the curve's connectivity is kept until a particle has moved so far
+    bool operator==(const SurfaceTension&) const = default;
+  } surface_tension;
+
+  struct Gravity {
+    double x = 0, y = 0;  ///< m/s2
+    bool operator==(const Gravity&) const = default;
+  } gravity;
+
+  struct Output {
+    std::string directory;
+    double snapshot_interval = 0;  ///< s of simulated time; 0: only first and last
+    double history_interval = 0;   ///< s of simulated time
+    bool operator==(const Output&) const = default;
+  } output;
+
+  struct Parallel {
+    double skin = 0;  ///< neighbour lists reach so far beyond 2h, in units of d
+    double imbalance_threshold = 0;
+    std::int64_t repartition_interval = 0;  ///< steps between forced repartitions; 0: none
+    bool operator==(const Parallel&) const = default;
+  } parallel;
+
+  struct Safety {
+    double speed_limit = 0;    ///< m/s: a faster particle stops the run
+    double domain_margin = 0;  ///< m: a particle farther than this outside the box of the initial particles is lost
+    bool operator==(const Safety&) const = default;
+  } safety;
+
+  bool operator==(const Case&) const = default;
+};
+
+}  // namespace sphdrop

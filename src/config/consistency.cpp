@@ -1,0 +1,202 @@
+#include "config/consistency.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "config/check.hpp"
+#include "config/derived_defaults.hpp"
+#include "config/key_suggestion.hpp"
+#include "config/utf8.hpp"
+
+namespace sphdrop {
+namespace {
+
+constexpr double most_particles = 2e9;
+constexpr double whole_number_tolerance = 1e-6;
+
+bool is_whole(double ratio) {
+  const double nearest = std::round(ratio);
+  return std::abs(ratio - nearest) <= whole_number_tolerance * std::max(1.0, nearest);
+}
+
+double columns_along(const Case& values) {
+  return values.solid.length / values.resolution.spacing;
+}
+
+double particle_count(const Case& values) {
+  const double d = values.resolution.spacing;
+  double area = 0;
+  if (has_drop(values)) {
+    const double square = values.drop.diameter * values.drop.diameter;
+    area += values.drop.shape == DropShape::round ? square * std::numbers::pi / 4 : square;
+  }
+  if (has_beam(values)) {
+    area += (values.solid.length + 2 * values.solid.clamp_length) * values.solid.thickness;
+    area += 4 * values.solid.clamp_length * static_cast<double>(values.solid.clamp_layers) * d;
+  }
+  if (values.solid.kind == SolidKind::rigid_wall) area += values.solid.length * d;
+  return area / (d * d);
+}
+
+Verdict nothing_to_simulate(const Case& values) {
+  if (has_drop(values) || has_beam(values)) return {};
+  return "nothing moves in this case: give a drop (drop.shape = \"round\" or \"square\") or a beam (solid.kind = "
+         "\"cantilever\" or \"fixed_fixed_beam\")";
+}
+
+Verdict oscillation_of_another_shape(const Case& values) {
+  if (values.drop.oscillation_velocity == 0 || values.drop.shape == DropShape::round) return {};
+  return "drop.oscillation_velocity needs drop.shape = \"round\": the oscillating field is that of a round drop; set "
+         "it to "
+         "0 or make the drop round";
+}
+
+Verdict velocity_without_drop(const Case& values) {
+  if (has_drop(values) || (values.drop.velocity_x == 0 && values.drop.velocity_y == 0)) return {};
+  return "drop.velocity is given but there is no drop; set it to [0, 0] or give drop.shape";
+}
+
+Verdict drop_too_small(const Case& values) {
+  const double d = values.resolution.spacing;
+  if (!has_drop(values) || values.drop.diameter >= 4 * d * (1 - whole_number_tolerance)) return {};
+  return fmt::format("drop.diameter = {} m is less than 4 spacings of {} m; take resolution.spacing <= {} m",
+                     values.drop.diameter, d, values.drop.diameter / 4);
+}
+
+Verdict beam_without_length(const Case& values) {
+  if (!has_beam(values) || !std::isnan(values.solid.length)) return {};
+  return "solid.length is missing: a beam needs its free length, in m";
+}
+
+Verdict rows_not_whole(const Case& values) {
+  if (!has_beam(values)) return {};
+  const double rows = rows_across(values);
+  const double H = values.solid.thickness;
+  if (rows < 2 - whole_number_tolerance) {
+    return fmt::format(
+        "solid.thickness = {} m holds {:.3g} rows of spacing {} m; a beam needs at least 2, better 10: take "
+        "resolution.spacing = {} m",
+        H, rows, values.resolution.spacing, H / 10);
+  }
+  if (is_whole(rows)) return {};
+  return fmt::format(
+      "solid.thickness = {} m is {:.8g} rows of spacing {} m, not a whole number; the nearest "
+      "resolution.spacing that fit are {:.10g} m ({} rows) and {:.10g} m ({} rows)",
+      H, rows, values.resolution.spacing, H / std::floor(rows), std::floor(rows), H / std::ceil(rows), std::ceil(rows));
+}
+
+Verdict length_not_whole(const Case& values) {
+  if (!has_beam(values) || std::isnan(values.solid.length)) return {};
+  const double columns = columns_along(values);
+  const double d = values.resolution.spacing;
+  if (columns < 4 * (1 - whole_number_tolerance)) {
+    return fmt::format("solid.length = {} m holds {:.3g} columns of spacing {} m; a beam needs at least 4",
+                       values.solid.length, columns, d);
+  }
+  if (is_whole(columns)) return {};
+  return fmt::format(
+      "solid.length = {} m is {:.10g} spacings of {} m, not a whole number; the nearest lengths that fit are "
+      "{:.10g} m and {:.10g} m",
+      values.solid.length, columns, d, std::floor(columns) * d, std::ceil(columns) * d);
+}
+
+// A strip thinner than the kernel's support would let the beam's particles see past it.
+Verdict clamp_thinner_than_support(const Case& values) {
+  if (!has_beam(values)) return {};
+  const double support = 2 * values.resolution.smoothing_ratio;  // in spacings
+  if (static_cast<double>(values.solid.clamp_layers) < support * (1 - whole_number_tolerance)) {
+    return fmt::format("solid.clamp_layers = {} is thinner than the kernel's support of {} spacings; take at least {}",
+                       values.solid.clamp_layers, support, std::ceil(support));
+  }
+  return {};
+}
+
+Verdict clamp_shorter_than_support(const Case& values) {
+  if (!has_beam(values)) return {};
+  const double support = 2 * values.resolution.smoothing_ratio * values.resolution.spacing;
+  if (values.solid.clamp_length < support * (1 - whole_number_tolerance)) {
+    return fmt::format("solid.clamp_length = {} m is shorter than the kernel's support of {} m; take at least that",
+                       values.solid.clamp_length, support);
+  }
+  return {};
+}
+
+Verdict tip_velocity_of_another_solid(const Case& values) {
+  if (values.solid.initial_tip_velocity == 0 || values.solid.kind == SolidKind::cantilever) return {};
+  return "solid.initial_tip_velocity needs solid.kind = \"cantilever\": the initial velocity is that of its first "
+         "mode; set "
+         "it to 0 or make the solid a cantilever";
+}
+
+Verdict step_too_large(const Case& values) {
+  if (!(values.time.step > 0)) return {};
+  const StepBound bound = largest_step(values);
+  if (values.time.step <= bound.step) return {};
+  return fmt::format(
+      "time.step = {} s exceeds {:.4g} s, the bound of {} at a CFL factor of 1; take at most a tenth of that, "
+      "or \"auto\"",
+      values.time.step, bound.step, bound.equation);
+}
+
+Verdict step_beyond_end(const Case& values) {
+  if (values.time.step <= values.time.end) return {};
+  return fmt::format("time.step = {} s is longer than the run, time.end = {} s", values.time.step, values.time.end);
+}
+
+Verdict too_many_particles(const Case& values) {
+  const double count = particle_count(values);
+  if (!(count > most_particles)) return {};
+  return fmt::format(
+      "the case has about {:.2g} particles; the most is {:.0e}: check the units (m) of the lengths, or take a "
+      "larger resolution.spacing",
+      count, most_particles);
+}
+
+Verdict name_not_a_file_name(const Case& values) {
+  const bool is_one = values.name != "." && values.name != ".." && values.name.find('/') == std::string::npos &&
+                      values.name.size() <= 200 && std::none_of(values.name.begin(), values.name.end(), is_control) &&
+                      !first_invalid_utf8(values.name);
+  if (is_one && values.name != "auto" && !values.name.empty()) return {};
+  return fmt::format(
+      "name = \"{}\" must do as the name of a file: at most 200 bytes of text, without \"/\", and not "
+      "\"auto\"",
+      printable(values.name));
+}
+
+const std::vector<Check>& contradiction_checks() {
+  static const std::vector<Check> checks = {
+      {{"drop.shape", "solid.kind"}, nothing_to_simulate},
+      {{"drop.oscillation_velocity", "drop.shape"}, oscillation_of_another_shape},
+      {{"drop.velocity", "drop.shape"}, velocity_without_drop},
+      {{"drop.diameter", "resolution.spacing", "drop.shape"}, drop_too_small},
+      {{"solid.length", "solid.kind"}, beam_without_length},
+      {{"solid.thickness", "resolution.spacing", "solid.kind"}, rows_not_whole},
+      {{"solid.length", "resolution.spacing", "solid.kind"}, length_not_whole},
+      {{"solid.clamp_layers", "resolution.smoothing_ratio", "solid.kind"}, clamp_thinner_than_support},
+      {{"solid.clamp_length", "resolution.smoothing_ratio", "resolution.spacing", "solid.kind"},
+       clamp_shorter_than_support},
+      {{"solid.initial_tip_velocity", "solid.kind"}, tip_velocity_of_another_solid},
+      {{"time.step", "resolution.spacing", "resolution.smoothing_ratio", "fluid.sound_speed", "fluid.density",
+        "fluid.viscosity", "surface_tension.form", "surface_tension.coefficient", "solid.kind", "solid.youngs_modulus",
+        "solid.poisson_ratio", "solid.density", "drop.shape", "drop.velocity", "drop.diameter",
+        "drop.oscillation_velocity", "solid.initial_tip_velocity", "gravity.acceleration", "time.end"},
+       step_too_large},
+      {{"time.step", "time.end"}, step_beyond_end},
+      {{"resolution.spacing", "drop.shape", "drop.diameter", "solid.kind", "solid.length", "solid.thickness",
+        "solid.clamp_length", "solid.clamp_layers"},
+       too_many_particles},
+      {{"name"}, name_not_a_file_name},
+  };
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Finding> contradictions(const Case& values, const IsUsable& is_usable) {
+  return run_checks(contradiction_checks(), values, is_usable);
+}
+
+}  // namespace sphdrop

@@ -1,0 +1,98 @@
+#include "config/derived_defaults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+
+namespace sphdrop {
+namespace {
+
+double speed(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
+// Where the paper lets the drop fall: above the free end of a cantilever with its rim over the tip (method.md, 7), else
+// above the middle.
+double default_centre(const Case& values) {
+  if (values.solid.kind == SolidKind::cantilever) return values.solid.length - values.drop.diameter / 2;
+  if (values.solid.kind == SolidKind::fixed_fixed_beam) return values.solid.length / 2;
+  return 0;
+}
+
+// No particle gets here in a sound run: twice what free flight at the expected speed covers, plus the largest body.
+double default_domain_margin(const Case& values) {
+  double body = values.resolution.spacing;
+  if (has_drop(values)) body = std::max(body, values.drop.diameter);
+  if (values.solid.kind != SolidKind::none) body = std::max(body, values.solid.length);
+  return 2 * expected_speed(values) * values.time.end + body;
+}
+
+void fill(double& value, double automatic) {
+  if (std::isnan(value)) value = automatic;
+}
+
+}  // namespace
+
+bool has_drop(const Case& values) {
+  return values.drop.shape != DropShape::none;
+}
+
+bool has_beam(const Case& values) {
+  return values.solid.kind == SolidKind::cantilever || values.solid.kind == SolidKind::fixed_fixed_beam;
+}
+
+double expected_speed(const Case& values) {
+  double fastest = 0;
+  if (has_drop(values)) {
+    fastest = speed(values.drop.velocity_x, values.drop.velocity_y) + std::abs(values.drop.oscillation_velocity);
+    if (values.surface_tension.form != SurfaceTensionForm::none) {
+      fastest = std::max(
+          fastest, std::sqrt(2 * values.surface_tension.coefficient / (values.fluid.density * values.drop.diameter)));
+    }
+  }
+  if (has_beam(values)) fastest = std::max(fastest, std::abs(values.solid.initial_tip_velocity));
+  return fastest + speed(values.gravity.x, values.gravity.y) * values.time.end;
+}
+
+double largest_sound_speed(const Case& values) {
+  const double liquid = has_drop(values) ? values.fluid.sound_speed : 0;
+  if (!has_beam(values)) return liquid;
+  const double bulk_modulus = values.solid.youngs_modulus / (3 * (1 - 2 * values.solid.poisson_ratio));
+  return std::max(liquid, std::sqrt(bulk_modulus / values.solid.density));
+}
+
+StepBound largest_step(const Case& values) {
+  const double h = values.resolution.smoothing_ratio * values.resolution.spacing;
+  const double rho = values.fluid.density;
+  const double sigma = values.surface_tension.coefficient;
+  const double mu = values.fluid.viscosity;
+  StepBound bound{h / (largest_sound_speed(values) + expected_speed(values)), "Eq 40 (sound)"};
+  if (has_drop(values) && values.surface_tension.form != SurfaceTensionForm::none && sigma > 0) {
+    const double capillary = std::sqrt(rho * h * h * h / (2 * std::numbers::pi * sigma));  // Eq 41
+    if (capillary < bound.step) bound = {capillary, "Eq 41 (capillary waves)"};
+  }
+  if (has_drop(values) && mu > 0) {
+    const double viscous = rho * h * h / mu;  // Eq 42
+    if (viscous < bound.step) bound = {viscous, "Eq 42 (viscosity)"};
+  }
+  return bound;
+}
+
+void fill_derived_defaults(Case& values, const std::string& source_name) {
+  if (values.name.empty()) values.name = std::filesystem::path(source_name).stem().string();
+  if (values.output.directory.empty()) values.output.directory = "results/" + values.name;
+
+  const double d = values.resolution.spacing;
+  fill(values.time.step, 0);
+  fill(values.drop.gap, std::max(0.0, values.contact.distance_ratio - 1) * d + 0.1 * d);
+  if (std::isnan(values.solid.length) && !has_beam(values)) {
+    values.solid.length = std::max(1.0, std::round(8 * values.drop.diameter / d)) * d;  // whole spacings
+  }
+  fill(values.drop.centre_x, default_centre(values));
+  fill(values.safety.speed_limit, values.fluid.sound_speed);
+  fill(values.safety.domain_margin, default_domain_margin(values));
+}
+
+}  // namespace sphdrop

@@ -1,0 +1,32 @@
+#pragma once
+// Values that follow from others where a case says "auto", and the estimates they and the checks rest on.
+
+#include <string>
+
+#include "config/case.hpp"
+
+namespace sphdrop {
+
+/// Puts a number or text where a parameter is still automatic (NaN or "").
+/// source_name: the case file's path; its name without ending becomes the run's name.
+void fill_derived_defaults(Case& values, const std::string& source_name);
+
+/// Upper estimate of the speeds in the run, m/s: initial ones, what gravity adds until time.end, and the speed at which
+/// surface tension draws back a sheet as thick as the drop, sqrt(2 sigma/(rho D0)).
+double expected_speed(const Case& values);
+
+/// Largest sound speed, m/s: the liquid's, and the beam's c_s = sqrt(K/rho) with K = E/(3 (1 - 2 nu)) (method.md, 3a).
+double largest_sound_speed(const Case& values);
+
+struct StepBound {
+  double step = 0;  ///< s; infinity if nothing bounds it
+  const char* equation = "";
+};
+
+/// The smallest of Eqs 40-42 with all CFL factors 1, for the materials and forces that the case has.
+StepBound largest_step(const Case& values);
+
+bool has_drop(const Case& values);
+bool has_beam(const Case& values);
+
+}  // namespace sphdrop

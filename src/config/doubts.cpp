@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "config/check.hpp"
+#include "config/consistency.hpp"
+#include "config/derived_defaults.hpp"
+
+namespace sphdrop {
+namespace {
+
+Verdict few_rows(const Case& values) {
+  const double rows = std::round(rows_across(values));
+  if (!has_beam(values) || rows >= 4) return {};
+  return fmt::format("the beam has {} rows across its thickness; bending needs at least 4, better 10", rows);
+}
+
+Verdict odd_rows(const Case& values) {
+  const double rows = std::round(rows_across(values));
+  if (!has_beam(values) || std::fmod(rows, 2) == 0) return {};
+  return fmt::format(
+      "the beam has {} rows, an odd number: it will be 2 to 3 times too stiff. Even ones are {} rows "
+      "(resolution.spacing = {:.10g} m) and {} rows ({:.10g} m)",
+      rows, rows - 1, values.solid.thickness / (rows - 1), rows + 1, values.solid.thickness / (rows + 1));
+}
+
+// method.md, 3a: critical coefficients .50, .43, .33, .15, .05 at h/d = 1.0, 1.05, 1.1, 1.2, 1.3 without viscosity;
+// with it, 0.2 is stable at 1.2.
+Verdict unstable_artificial_stress(const Case& values) {
+  const double ratio = values.resolution.smoothing_ratio;
+  const double eps = values.solid.artificial_stress_coefficient;
+  if (!has_beam(values)) return {};
+  const double limit = ratio <= 1.1 ? 0.5 : (ratio < 1.3 ? 0.25 : 0.05);
+  if (ratio <= 1.1 ? eps <= limit : eps < limit) return {};
+  return fmt::format(
+      "solid.artificial_stress_coefficient = {} is unstable at h = {} d: a zigzag of the beam's particles "
+      "grows. Take 0.2 or less at h = 1.2 d, or resolution.smoothing_ratio <= 1.1",
+      eps, ratio);
+}
+
+Verdict slow_sound(const Case& values) {
+  if (!has_drop(values)) return {};
+  const double fastest = expected_speed(values);
+  if (values.fluid.sound_speed >= 10 * fastest) return {};
+  return fmt::format(
+      "fluid.sound_speed = {} m/s is less than 10 times the largest speed expected, {:.4g} m/s: the liquid will "
+      "be compressed by more than 1 %. Take 50 times that speed",
+      values.fluid.sound_speed, fastest);
+}
+
+Verdict inviscid(const Case& values) {
+  if (!has_drop(values) || values.fluid.artificial_viscosity_alpha > 0) return {};
+  return "fluid.artificial_viscosity_alpha = 0: the drop's particles will clump";
+}
+
+Verdict uncorrected_density(const Case& values) {
+  if (!has_drop(values) || values.fluid.density_correction_interval > 0) return {};
+  return "fluid.density_correction_interval = 0: without the correction all particles pair up and the curvature's "
+         "noise "
+         "triples";
+}
+
+Verdict stubby_beam(const Case& values) {
+  if (!has_beam(values) || values.solid.length >= 4 * values.solid.thickness) return {};
+  return fmt::format("solid.length = {} m is less than 4 thicknesses of {} m: beam theory does not describe it",
+                     values.solid.length, values.solid.thickness);
+}
+
+const std::vector<Check>& doubt_checks() {
+  static const std::vector<Check> checks = {
+      {{"resolution.spacing", "solid.thickness"}, few_rows},
+      {{"resolution.spacing", "solid.thickness"}, odd_rows},
+      {{"solid.length", "solid.thickness"}, stubby_beam},
+      {{"solid.artificial_stress_coefficient", "resolution.smoothing_ratio"}, unstable_artificial_stress},
+      {{"fluid.sound_speed", "drop.velocity", "drop.oscillation_velocity", "gravity.acceleration"}, slow_sound},
+      {{"fluid.artificial_viscosity_alpha"}, inviscid},
+      {{"fluid.density_correction_interval"}, uncorrected_density},
+  };
+  return checks;
+}
+
+}  // namespace
+
+std::vector<Finding> doubts(const Case& values) {
+  return run_checks(doubt_checks(), values, [](std::string_view) { return true; });
+}
+
+}  // namespace sphdrop

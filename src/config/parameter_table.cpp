@@ -1,0 +1,253 @@
+#include "config/parameter_table.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace sphdrop {
+namespace {
+
+template <auto Section, auto Member>
+constexpr auto& member_of(Case& values) {
+  return values.*Section.*Member;
+}
+
+template <auto Section, auto Member>
+constexpr RealParameter real(std::variant<Required, Automatic, double> fallback, Range range) {
+  return {member_of<Section, Member>, fallback, range};
+}
+
+template <auto Section, auto Member>
+constexpr IntegerParameter integer(std::int64_t fallback, std::int64_t lower, std::int64_t upper,
+                                   std::span<const std::int64_t> choices = {}) {
+  return {member_of<Section, Member>, fallback, lower, upper, choices};
+}
+
+template <auto Section, auto X, auto Y>
+constexpr VectorParameter vector(std::array<double, 2> fallback, Range range) {
+  return {member_of<Section, X>, member_of<Section, Y>, fallback, range};
+}
+
+template <auto Section, auto Member, typename Enumeration>
+constexpr WordParameter word(std::span<const std::string_view> words, Enumeration fallback) {
+  return {words, [](const Case& values) { return static_cast<std::size_t>(values.*Section.*Member); },
+          [](Case& values, std::size_t position) { values.*Section.*Member = static_cast<Enumeration>(position); },
+          static_cast<std::size_t>(fallback)};
+}
+
+constexpr Range positive(double upper) {
+  return {0, false, upper, true};
+}
+constexpr Range non_negative(double upper) {
+  return {0, true, upper, true};
+}
+constexpr Range either_sign(double bound) {
+  return {-bound, true, bound, true};
+}
+
+// The words of each enumeration, in the order of its enumerators (config/case.hpp).
+constexpr std::string_view mode_words[] = {"paper"};
+constexpr std::string_view shape_words[] = {"none", "round", "square"};
+constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
+constexpr std::string_view solid_words[] = {"none", "cantilever", "fixed_fixed_beam", "rigid_wall"};
+constexpr std::string_view trace_words[] = {"plane_strain", "two_dimensional"};
+constexpr std::string_view form_words[] = {"none", "conservative", "curvature"};
+
+constexpr std::int64_t stencil_choices[] = {3, 5};
+
+// Upper limits that no physics sets: they catch slips of units and keep products of parameters finite.
+constexpr double largest_length = 100;   // m
+constexpr double largest_time = 1e4;     // s
+constexpr double largest_speed = 1e5;    // m/s
+constexpr double largest_density = 1e6;  // kg/m3
+constexpr std::int64_t most_steps = 1000000000;
+
+using C = Case;
+
+constexpr Parameter table[] = {
+    {"name", "", "-",
+     TextParameter{[](C& c) -> std::string& { return c.name; }, {"the case file's name without its ending"}},
+     "name of the run: the start of its files' names"},
+    {"mode", "", "-",
+     WordParameter{mode_words, [](const C& c) { return static_cast<std::size_t>(c.mode); },
+                   [](C& c, std::size_t position) { c.mode = static_cast<Mode>(position); }, 0},
+     "scheme: paper = as printed, completed where the print is silent"},
+
+    {"resolution.spacing", "d_ini", "m",
+     real<&C::resolution, &C::Resolution::spacing>(Required{}, positive(largest_length)),
+     "particle spacing d at the start"},
+    {"resolution.smoothing_ratio", "h/d_ini", "-",
+     real<&C::resolution, &C::Resolution::smoothing_ratio>(1.2, {1, true, 2, true}),
+     "smoothing length over particle spacing"},
+
+    {"time.end", "t", "s", real<&C::time, &C::Time::end>(Required{}, positive(largest_time)),
+     "simulated time at which the run ends"},
+    {"time.step", "dt", "s",
+     real<&C::time, &C::Time::step>(Automatic{"0: Eqs 40-42, every step"}, non_negative(largest_time)),
+     "fixed time step; 0 = the smallest of Eqs 40-42"},
+    {"time.sound_cfl", "", "-", real<&C::time, &C::Time::sound_cfl>(0.1, positive(1)), "factor of Eq 40 (sound)"},
+    {"time.capillary_cfl", "", "-", real<&C::time, &C::Time::capillary_cfl>(0.1, positive(1)),
+     "factor of Eq 41 (capillary waves)"},
+    {"time.viscous_cfl", "", "-", real<&C::time, &C::Time::viscous_cfl>(0.1, positive(1)),
+     "factor of Eq 42 (viscosity)"},
+
+    {"fluid.density", "rho0", "kg/m3", real<&C::fluid, &C::Fluid::density>(1000.0, positive(largest_density)),
+     "the liquid's density at rest"},
+    {"fluid.viscosity", "mu", "Pa s", real<&C::fluid, &C::Fluid::viscosity>(0.001, non_negative(1e4)),
+     "the liquid's viscosity; enters the time step only (Eq 42)"},
+    {"fluid.sound_speed", "c_f", "m/s", real<&C::fluid, &C::Fluid::sound_speed>(50.0, positive(largest_speed)),
+     "the liquid's numerical sound speed (Eq 4), about 50 times the largest speed expected"},
+    {"fluid.artificial_viscosity_alpha", "alpha", "-",
+     real<&C::fluid, &C::Fluid::artificial_viscosity_alpha>(0.1, non_negative(100)),
+     "linear artificial viscosity of the liquid (Eq 17)"},
+    {"fluid.artificial_viscosity_beta", "beta", "-",
+     real<&C::fluid, &C::Fluid::artificial_viscosity_beta>(0.0, non_negative(100)),
+     "quadratic artificial viscosity of the liquid (Eq 17)"},
+    {"fluid.density_correction_interval", "", "steps",
+     integer<&C::fluid, &C::Fluid::density_correction_interval>(20, 0, most_steps),
+     "steps between density corrections by moving least squares (Eq 13); 0 = never"},
+
+    {"drop.shape", "", "-", word<&C::drop, &C::Drop::shape>(shape_words, DropShape::round),
+     "the drop's shape at the start"},
+    {"drop.arrangement", "", "-", word<&C::drop, &C::Drop::arrangement>(arrangement_words, DropArrangement::rings),
+     "how a round drop's particles start: concentric rings, or cut out of the square lattice"},
+    {"drop.diameter", "D0", "m", real<&C::drop, &C::Drop::diameter>(1e-3, positive(largest_length)),
+     "diameter of a round drop, side of a square one"},
+    {"drop.velocity", "U0", "m/s",
+     vector<&C::drop, &C::Drop::velocity_x, &C::Drop::velocity_y>({0, 0}, either_sign(largest_speed)),
+     "the drop's velocity at the start; downwards is negative y"},
+    {"drop.gap", "", "m",
+     real<&C::drop, &C::Drop::gap>(Automatic{"0.1 spacing beyond the contact distance"}, non_negative(largest_length)),
+     "distance between the surfaces of drop and solid at the start"},
+    {"drop.centre_x", "", "m",
+     real<&C::drop, &C::Drop::centre_x>(
+         Automatic{"cantilever: length - diameter/2; fixed_fixed_beam: mid-span; else 0"}, either_sign(largest_length)),
+     "x of the drop's centre; 0 is the left clamp's edge, or the middle of a rigid wall"},
+    {"drop.jitter", "", "d_ini", real<&C::drop, &C::Drop::jitter>(0.01, {0, true, 0.3, true}),
+     "largest random displacement of a lattice start, in spacings"},
+    {"drop.seed", "", "-", integer<&C::drop, &C::Drop::seed>(1, 0, std::numeric_limits<std::int64_t>::max()),
+     "seed of the jitter"},
+    {"drop.oscillation_velocity", "V0", "m/s",
+     real<&C::drop, &C::Drop::oscillation_velocity>(0.0, either_sign(largest_speed)),
+     "amplitude of the oscillating drop's initial velocity field; 0 = none"},
+    {"drop.oscillation_radius", "r0", "m",
+     real<&C::drop, &C::Drop::oscillation_radius>(0.25e-3, positive(largest_length)),
+     "decay length of the oscillating drop's initial velocity field"},
+
+    {"solid.kind", "", "-", word<&C::solid, &C::Solid::kind>(solid_words, SolidKind::none), "what the drop meets"},
+    {"solid.length", "L", "m",
+     real<&C::solid, &C::Solid::length>(Automatic{"rigid_wall: 8 drop diameters; a beam must give it"},
+                                        positive(largest_length)),
+     "a beam's free length, from the clamp's edge or between the clamps' edges; a rigid wall's width"},
+    {"solid.thickness", "H", "m", real<&C::solid, &C::Solid::thickness>(0.25e-3, positive(largest_length)),
+     "the beam's thickness"},
+    {"solid.density", "rho_b", "kg/m3", real<&C::solid, &C::Solid::density>(1000.0, positive(largest_density)),
+     "the beam's density"},
+    {"solid.youngs_modulus", "E", "Pa", real<&C::solid, &C::Solid::youngs_modulus>(300e6, positive(1e14)),
+     "the beam's Young's modulus"},
+    {"solid.poisson_ratio", "nu", "-", real<&C::solid, &C::Solid::poisson_ratio>(0.3, {-1, false, 0.5, false}),
+     "the beam's Poisson's ratio"},
+    {"solid.deviatoric_trace", "", "-",
+     word<&C::solid, &C::Solid::deviatoric_trace>(trace_words, DeviatoricTrace::plane_strain),
+     "share of tr(e) taken off in Eq 6: plane_strain = 1/3, two_dimensional = 1/2"},
+    {"solid.artificial_viscosity_alpha", "alpha", "-",
+     real<&C::solid, &C::Solid::artificial_viscosity_alpha>(2.0, non_negative(100)),
+     "linear artificial viscosity of the beam (Eq 17)"},
+    {"solid.artificial_viscosity_beta", "beta", "-",
+     real<&C::solid, &C::Solid::artificial_viscosity_beta>(0.0, non_negative(100)),
+     "quadratic artificial viscosity of the beam (Eq 17)"},
+    {"solid.artificial_stress_coefficient", "eps", "-",
+     real<&C::solid, &C::Solid::artificial_stress_coefficient>(0.2, non_negative(1)),
+     "artificial stress (Eq 20); the paper's 0.5 is unstable at h = 1.2 d"},
+    {"solid.clamp_length", "", "m", real<&C::solid, &C::Solid::clamp_length>(0.5e-3, positive(largest_length)),
+     "length of a clamp's strips"},
+    {"solid.clamp_layers", "", "-", integer<&C::solid, &C::Solid::clamp_layers>(3, 1, 1000),
+     "particles across a clamp's strip"},
+    {"solid.initial_tip_velocity", "", "m/s",
+     real<&C::solid, &C::Solid::initial_tip_velocity>(0.0, either_sign(largest_speed)),
+     "speed of a cantilever's tip in its first bending mode at the start; upwards is positive"},
+
+    {"contact.stiffness", "", "-", real<&C::contact, &C::Contact::stiffness>(0.1, positive(1)),
+     "factor of the contact force (Eq 24)"},
+    {"contact.distance_ratio", "d0/d_ini", "-", real<&C::contact, &C::Contact::distance_ratio>(1.0, positive(2)),
+     "distance at which contact begins, in spacings"},
+    {"contact.overlap_limit", "", "d0", real<&C::contact, &C::Contact::overlap_limit>(0.2, positive(1)),
+     "overlap at which the run stops, in contact distances"},
+
+    {"surface_tension.form", "", "-",
+     word<&C::surface_tension, &C::SurfaceTension::form>(form_words, SurfaceTensionForm::conservative),
+     "conservative = minus the gradient of sigma x curve length, curvature = Eqs 28-31"},
+    {"surface_tension.coefficient", "sigma", "N/m",
+     real<&C::surface_tension, &C::SurfaceTension::coefficient>(0.072, non_negative(100)), "surface tension"},
+    {"surface_tension.polynomial_points", "", "-",
+     integer<&C::surface_tension, &C::SurfaceTension::polynomial_points>(3, 3, 5, stencil_choices),
+     "surface points of the local polynomial (Eq 28); used by the curvature form"},
+    {"surface_tension.detection_displacement", "", "d_ini",
+     real<&C::surface_tension, &C::SurfaceTension::detection_displacement>(0.03, non_negative(0.5)),
+     "the surface curve is detected anew once a particle has moved this far; 0 = every step"},
+
+    {"gravity.acceleration", "g", "m/s2", vector<&C::gravity, &C::Gravity::x, &C::Gravity::y>({0, 0}, either_sign(1e6)),
+     "acceleration of gravity; downwards is negative y"},
+
+    {"output.directory", "", "-",
+     TextParameter{[](C& c) -> std::string& { return c.output.directory; }, {"results/<name>"}},
+     "folder of the results"},
+    {"output.snapshot_interval", "", "s",
+     real<&C::output, &C::Output::snapshot_interval>(1e-4, non_negative(largest_time)),
+     "simulated time between snapshots of all particles; 0 = only the first and the last"},
+    {"output.history_interval", "", "s", real<&C::output, &C::Output::history_interval>(2e-6, positive(largest_time)),
+     "simulated time between rows of the history"},
+
+    {"parallel.skin", "", "d_ini", real<&C::parallel, &C::Parallel::skin>(0.3, positive(5)),
+     "neighbour lists reach this far beyond the support 2h, in spacings"},
+    {"parallel.imbalance_threshold", "", "-",
+     real<&C::parallel, &C::Parallel::imbalance_threshold>(1.1, {1, false, 1000, true}),
+     "largest over mean load of a process from which the particles are dealt out anew"},
+    {"parallel.repartition_interval", "", "steps",
+     integer<&C::parallel, &C::Parallel::repartition_interval>(0, 0, most_steps),
+     "steps between forced repartitions; 0 = none"},
+
+    {"safety.speed_limit", "", "m/s",
+     real<&C::safety, &C::Safety::speed_limit>(Automatic{"fluid.sound_speed"}, positive(10 * largest_speed)),
+     "a faster particle stops the run"},
+    {"safety.domain_margin", "", "m",
+     real<&C::safety, &C::Safety::domain_margin>(Automatic{"twice the farthest free flight plus the largest body"},
+                                                 positive(1e12)),
+     "a particle this far outside the box of the initial particles stops the run"},
+};
+
+std::vector<std::string_view> sections_of_table() {
+  std::vector<std::string_view> names;
+  for (const Parameter& parameter : table) {
+    const std::string_view section = parameter.section();
+    if (!section.empty() && (names.empty() || names.back() != section)) names.push_back(section);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string_view Parameter::section() const {
+  const std::size_t dot = key.find('.');
+  return dot == std::string_view::npos ? std::string_view{} : key.substr(0, dot);
+}
+
+std::string_view Parameter::name() const {
+  const std::size_t dot = key.find('.');
+  return dot == std::string_view::npos ? key : key.substr(dot + 1);
+}
+
+std::span<const Parameter> parameter_table() {
+  return table;
+}
+
+const Parameter* find_parameter(std::string_view key) {
+  const auto found = std::find_if(std::begin(table), std::end(table), [&](const Parameter& p) { return p.key == key; });
+  return found == std::end(table) ? nullptr : &*found;
+}
+
+std::span<const std::string_view> section_names() {
+  static const std::vector<std::string_view> names = sections_of_table();
+  return names;
+}
+
+}  // namespace sphdrop

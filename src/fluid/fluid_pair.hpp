@@ -1,0 +1,56 @@
+#pragma once
+// What one liquid particle contributes to the rates of another (Eqs 9, 12, 17, 18).
+
+#include <algorithm>
+#include <cmath>
+
+#include "sph/artificial_viscosity.hpp"
+#include "sph/kernel.hpp"
+
+namespace sphdrop {
+
+/// The quantities of a liquid particle that enter the pair formula. T is double or a SIMD vector.
+template <class T>
+struct FluidState {
+  T x, y, velocity_x, velocity_y, density, pressure, mass, volume;
+};
+
+/// Sums over the neighbours of a particle.
+template <class T>
+struct FluidRates {
+  T density_rate{0.0};      ///< drho/dt (9), kg/(m3 s)
+  T acceleration_x{0.0};    ///< dv/dt (12) without contact, tension and gravity, m/s2
+  T acceleration_y{0.0};
+  T dissipation_rate{0.0};  ///< specific heating by Pi, W/kg
+};
+
+struct FluidPairParameters {
+  CubicSpline kernel;
+  ArtificialViscosity viscosity;
+};
+
+/// Adds what j contributes to i. Out of the kernel's support, and for j = i, that is an exact zero.
+template <class T>
+[[gnu::always_inline]] inline void add_fluid_pair(const FluidPairParameters& parameters, const FluidState<T>& i,
+                                                  const T& inverse_density_i, const FluidState<T>& j,
+                                                  FluidRates<T>& rates) {
+  using std::max;
+  using std::sqrt;
+  const T x = i.x - j.x, y = i.y - j.y;
+  const T velocity_x = i.velocity_x - j.velocity_x, velocity_y = i.velocity_y - j.velocity_y;
+  const T squared_distance = x * x + y * y;
+  const T distance = sqrt(max(squared_distance, T(1e-60)));
+  const T slope = parameters.kernel.slope(distance) / distance;  // grad W = slope x_ij
+  const T velocity_dot_distance = velocity_x * x + velocity_y * y;
+  const T velocity_dot_gradient = velocity_dot_distance * slope;
+
+  rates.density_rate += j.mass * velocity_dot_gradient;  // (9)
+  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, squared_distance, i.density + j.density);
+  // (12): m_j (p_i + p_j)/(rho_i rho_j) = V_j (p_i + p_j)/rho_i
+  const T force = (j.volume * (i.pressure + j.pressure) * inverse_density_i + viscous) * slope;
+  rates.acceleration_x -= force * x;
+  rates.acceleration_y -= force * y;
+  rates.dissipation_rate += T(0.5) * viscous * velocity_dot_gradient;
+}
+
+}  // namespace sphdrop

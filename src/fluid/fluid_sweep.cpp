@@ -1,0 +1,65 @@
+#include "fluid/fluid_sweep.hpp"
+
+#include "particles/pack.hpp"
+
+namespace sphdrop {
+
+namespace {
+
+// Rows past the end that a list may name as its padding, or that the last slice covers.
+constexpr std::size_t padding_records = block_size;
+
+FluidState<Pack> load_state(const double* records, const std::int32_t* rows) {
+  const auto r = load_records(records, rows);
+  return {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7]};
+}
+
+void write_record(double* record, const FluidParticles& fluid, std::size_t row) {
+  record[0] = fluid.position.x[row];
+  record[1] = fluid.position.y[row];
+  record[2] = fluid.velocity.x[row];
+  record[3] = fluid.velocity.y[row];
+  record[4] = fluid.density[row];
+  record[5] = fluid.pressure[row];
+  record[6] = fluid.mass[row];
+  record[7] = fluid.mass[row] / fluid.density[row];
+}
+
+}  // namespace
+
+void FluidSweep::resize(const FluidParticles& fluid) {
+  records_.resize((fluid.size() + padding_records) * 8);
+  for (std::size_t row = fluid.size(); row < fluid.size() + padding_records; ++row)
+    write_record(records_.data() + 8 * row, fluid, row);
+}
+
+void FluidSweep::pack(const FluidParticles& fluid, std::span<const RowRange> rows) {
+  for (const RowRange& range : rows)
+    for (std::int32_t row = range.begin; row < range.end; ++row)
+      write_record(records_.data() + 8 * std::int64_t{row}, fluid, static_cast<std::size_t>(row));
+}
+
+void FluidSweep::apply(FluidParticles& fluid, const SlicedNeighbours& list) const {
+  const double* records = records_.data();
+  const FluidPairParameters parameters = parameters_;
+  for (const SlicedNeighbours::Slice& slice : list.slices) {
+    for (std::int32_t lane = 0; lane < block_size; lane += pack_size) {
+      std::int32_t own_rows[block_size];
+      for (std::int32_t k = 0; k < pack_size; ++k) own_rows[k] = slice.first_row + lane + k;
+      const FluidState<Pack> i = load_state(records, own_rows);
+      const Pack inverse_density = Pack(1.0) / i.density;
+      FluidRates<Pack> rates;
+      const std::int32_t* neighbour_rows =
+          list.neighbours.data() + std::int64_t{slice.first_entry} * block_size + lane;
+      for (std::int32_t entry = 0; entry < slice.entries; ++entry, neighbour_rows += block_size)
+        add_fluid_pair(parameters, i, inverse_density, load_state(records, neighbour_rows), rates);
+      const std::int64_t row = slice.first_row + lane;
+      store(rates.density_rate, fluid.density_rate.data() + row);
+      store(rates.acceleration_x, fluid.acceleration.x.data() + row);
+      store(rates.acceleration_y, fluid.acceleration.y.data() + row);
+      store(rates.dissipation_rate, fluid.dissipation_rate.data() + row);
+    }
+  }
+}
+
+}  // namespace sphdrop

@@ -1,0 +1,162 @@
+// sphdrop: MPI, command line, case, run, errors.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+
+#include "config/case_file.hpp"
+#include "config/command_line.hpp"
+#include "config/effective_case.hpp"
+#include "config/toml_source.hpp"
+#include "decomposition/communicator.hpp"
+#include "io/output_directory.hpp"
+#include "setup/initial_state.hpp"
+#include "setup/setup_error.hpp"
+#include "simulation/case_check.hpp"
+#include "simulation/recorder.hpp"
+
+namespace {
+
+using namespace sphdrop;
+
+enum ExitCode { success = 0, internal_error = 1, user_error = 2, unsafe_state = 3, output_error = 4 };
+
+// The text of the case file, read by rank 0 alone; its mistakes are thrown on all ranks.
+std::string shared_case_text(const Communicator& communicator, const std::string& path) {
+  std::string text;
+  std::vector<std::string> mistakes;
+  if (communicator.rank() == 0) {
+    try {
+      text = read_text_file(path);
+    } catch (const CaseError& error) {
+      mistakes = error.mistakes();
+    }
+  }
+  std::string joined = fmt::format("{}", fmt::join(mistakes, "\n"));
+  communicator.broadcast(joined, 0);
+  if (!joined.empty()) throw CaseError({joined});
+  communicator.broadcast(text, 0);
+  return text;
+}
+
+void say(const Communicator& communicator, std::FILE* stream, const std::string& text) {
+  if (communicator.rank() != 0) return;
+  std::fputs(text.c_str(), stream);
+  std::fflush(stream);
+}
+
+// Whether standard error ends on a terminal. Under mpirun it is a pipe to it, so its own standard error is looked at.
+bool someone_watches_stderr() {
+  if (isatty(STDERR_FILENO)) return true;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return false;
+  std::error_code unknown;
+  const auto target = std::filesystem::read_symlink(fmt::format("/proc/{}/fd/2", getppid()), unknown);
+  return !unknown && target.string().starts_with("/dev/pts/");
+}
+
+void write_effective_case(const Communicator& communicator, const std::filesystem::path& directory, const Case& input) {
+  std::string error;
+  if (communicator.rank() == 0) {
+    std::ofstream file(directory / "case.cfg");
+    file << effective_case_text(input) << std::flush;
+    if (!file) error = fmt::format("cannot write {}", (directory / "case.cfg").string());
+  }
+  communicator.broadcast(error, 0);
+  if (!error.empty()) throw OutputDirectoryError(error);
+}
+
+int run_case(const Communicator& communicator, const CommandLine& command, const std::vector<std::string>& arguments) {
+  const std::string text = shared_case_text(communicator, command.case_file);
+  ParsedCase parsed = parse_case_text(text, command.case_file, command.overrides);
+  Case& input = parsed.values;
+  if (command.output_directory) input.output.directory = *command.output_directory;
+  for (const std::string& warning : parsed.warnings) say(communicator, stderr, "warning: " + warning + "\n");
+  const InitialState initial = build_initial_state(input);
+  if (command.action == CommandLine::Action::check) {
+    const std::string report = check_case(communicator, input, initial);
+    say(communicator, stdout, report);
+    return success;
+  }
+
+  const std::filesystem::path directory = input.output.directory;
+  prepare_output_directory(communicator, directory);
+  write_effective_case(communicator, directory, input);
+  RunRecord record(communicator, arguments);
+  record.write(directory);
+
+  Simulation simulation(communicator, input, initial.fluid, initial.solid);
+  RecorderOptions options;
+  options.directory = directory;
+  options.end_time = command.until ? std::min(*command.until, input.time.end) : input.time.end;
+  options.version = version_text();
+  options.progress = command.quiet                 ? Progress::Mode::quiet
+                     : someone_watches_stderr() ? Progress::Mode::terminal
+                                                   : Progress::Mode::log;
+  Recorder recorder(simulation, options);
+  try {
+    for (;;) {
+      simulation.evaluate();
+      recorder.observe();
+      if (simulation.time() >= options.end_time) break;
+      simulation.move();
+    }
+  } catch (const SafetyError& error) {
+    const std::string& last = recorder.last_snapshot().string();
+    record.finish(std::string("stopped: ") + error.what());
+    record.write(directory);
+    throw SafetyError(fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last));
+  }
+  const std::uint64_t hash = recorder.finish();
+  const RunSummary summary = recorder.summary();
+  record.set("particles", summary.particles);
+  record.set("steps", summary.steps);
+  record.set("simulated_time", summary.simulated_time);
+  record.set("load_imbalance", summary.load_imbalance);
+  for (const PhaseTime& phase : summary.phases) record.set("seconds in " + phase.name, phase.seconds);
+  record.finish("completed", hash);
+  record.write(directory);
+  say(communicator, stdout, summary_text(summary));
+  return success;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MpiEnvironment environment(argc, argv);
+  const Communicator communicator(MPI_COMM_WORLD);
+  const CommandLine command = parse_command_line(argc, argv);
+  if (command.action == CommandLine::Action::finish) {
+    say(communicator, command.exit_code == 0 ? stdout : stderr, command.text);
+    return command.exit_code;
+  }
+  // These are thrown on all ranks together, so all can leave in good order; anything else is one rank's own trouble.
+  const auto fail = [&](ExitCode code, const std::exception& error) {
+    say(communicator, stderr, fmt::format("sphdrop: {}\n", error.what()));
+    return static_cast<int>(code);
+  };
+  try {
+    return run_case(communicator, command, {argv, argv + argc});
+  } catch (const CaseError& error) {
+    return fail(user_error, error);
+  } catch (const SetupError& error) {
+    return fail(user_error, error);
+  } catch (const OutputDirectoryError& error) {
+    return fail(user_error, error);
+  } catch (const SafetyError& error) {
+    return fail(unsafe_state, error);
+  } catch (const SnapshotError& error) {
+    return fail(output_error, error);
+  } catch (const HistoryError& error) {
+    return fail(output_error, error);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "sphdrop: rank {}: internal error: {}\n", communicator.rank(), error.what());
+    MPI_Abort(MPI_COMM_WORLD, internal_error);
+  }
+  return internal_error;
+}

@@ -1,0 +1,161 @@
+#include "setup/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/contact_solver.hpp"
+#include "contact/contact_surface.hpp"
+#include "setup/beam.hpp"
+#include "setup/droplet.hpp"
+#include "setup/setup_error.hpp"
+
+namespace sphdrop {
+namespace {
+
+/// Particles are numbered in 32 bits and first built on one process; a slipped decimal point in the spacing should say
+/// so.
+void refuse_too_many_particles(const Case& input) {
+  constexpr double limit = 1e8;
+  const double d = input.resolution.spacing;
+  const SolidKind kind = input.solid.kind;
+  const double length = input.solid.length / d;
+  const double thickness = input.solid.thickness / d;
+  double count = 0.0;
+  if (input.drop.shape != DropShape::none) count += (input.drop.diameter / d) * (input.drop.diameter / d);
+  if (kind == SolidKind::rigid_wall) count += length;
+  if (kind == SolidKind::cantilever || kind == SolidKind::fixed_fixed_beam)
+    count += (length + 2.0 * input.solid.clamp_length / d) *
+             (thickness + 2.0 * static_cast<double>(input.solid.clamp_layers));
+  if (count <= limit) return;
+  throw SetupError(fmt::format(
+      "a spacing of {:g} m makes about {:.2g} particles; at most {:.2g} can be set up: choose a larger spacing", d,
+      count, limit));
+}
+
+InitialSolid build_solid(const Case& input) {
+  switch (input.solid.kind) {
+    case SolidKind::cantilever:
+    case SolidKind::fixed_fixed_beam:
+      return build_beam(input.solid, input.resolution.spacing);
+    case SolidKind::rigid_wall:
+      return build_rigid_wall(input.solid, input.resolution.spacing);
+    case SolidKind::none:
+      break;
+  }
+  return {};
+}
+
+/// About the origin.
+DropParticles build_drop(const Case& input) {
+  const double d = input.resolution.spacing;
+  const double density = input.fluid.density;
+  if (input.drop.shape == DropShape::none) return {};
+  const bool is_round = input.drop.shape == DropShape::round;
+  if (is_round && input.drop.arrangement == DropArrangement::rings)
+    return round_drop_of_rings(0.5 * input.drop.diameter, d, density);
+  DropParticles drop = is_round ? round_drop_of_lattice(0.5 * input.drop.diameter, d, density)
+                                : square_drop(input.drop.diameter, d, density);
+  if (input.drop.jitter != 0.0) jitter_positions(drop.positions, input.drop.jitter * d, input.drop.seed);
+  return drop;
+}
+
+double drop_centre_x(const Case& input) {
+  if (!std::isnan(input.drop.centre_x)) return input.drop.centre_x;
+  switch (input.solid.kind) {
+    case SolidKind::cantilever:
+      return input.solid.length - 0.5 * input.drop.diameter;
+    case SolidKind::fixed_fixed_beam:
+      return 0.5 * input.solid.length;
+    case SolidKind::rigid_wall:
+    case SolidKind::none:
+      break;
+  }
+  return 0.0;
+}
+
+/// Rings end at R - d'/2, a jittered lattice somewhere near R: counted from the lowest particle, the first contact
+/// comes at the same time whatever the arrangement.
+double drop_centre_y(const Case& input, const DropParticles& drop, const InitialSolid& solid) {
+  if (input.solid.kind == SolidKind::none) return 0.0;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vector& position : drop.positions) lowest = std::min(lowest, position.y);
+  return solid.top + input.drop.gap + 0.5 * input.resolution.spacing - lowest;
+}
+
+InitialFluid place_drop(const Case& input, const DropParticles& drop, Vector centre) {
+  if (input.drop.oscillation_velocity != 0.0 && !(input.drop.oscillation_radius > 0.0))
+    throw SetupError("an oscillating drop needs an oscillation radius greater than 0");
+  InitialFluid fluid;
+  fluid.masses = drop.masses;
+  for (const Vector& from_centre : drop.positions) {
+    Vector velocity{input.drop.velocity_x, input.drop.velocity_y};
+    if (input.drop.oscillation_velocity != 0.0)
+      velocity += oscillation_velocity(from_centre, input.drop.oscillation_velocity, input.drop.oscillation_radius);
+    fluid.positions.push_back(centre + from_centre);
+    fluid.velocities.push_back(velocity);
+  }
+  return fluid;
+}
+
+struct Coordinates {
+  std::vector<double> x, y;
+
+  explicit Coordinates(const std::vector<Vector>& positions) {
+    for (const Vector& position : positions) {
+      x.push_back(position.x);
+      y.push_back(position.y);
+    }
+  }
+};
+
+/// Measures with the contact algorithm itself, so that what passes here is at rest there.
+void refuse_overlap(const Case& input, const InitialState& state) {
+  const double d = input.resolution.spacing;
+  const double contact_distance = input.contact.distance_ratio * d;
+  if (state.fluid.positions.empty() || state.solid.contact_polylines.empty() || !(contact_distance > 0.0)) return;
+  const Coordinates fluid(state.fluid.positions);
+  const Coordinates solid(state.solid.positions);
+  const auto [lowest, highest] = std::minmax_element(solid.y.begin(), solid.y.end());
+  // Far enough to find the boundary from anywhere inside the solid.
+  const double reach = contact_distance + (*highest - *lowest);
+  ContactSolver contact;
+  contact.rebuild(fluid.x, fluid.y, solid.x, solid.y, segments_of_polylines(state.solid.contact_polylines), reach);
+
+  std::vector<double> unused_x(fluid.x.size()), unused_y(fluid.x.size());
+  std::vector<double> unused_force_x(solid.x.size()), unused_force_y(solid.x.size());
+  const ContactSummary overlap =
+      contact.apply({fluid.x, fluid.y, state.fluid.masses, unused_x, unused_y},
+                    {solid.x, solid.y, unused_force_x, unused_force_y}, {1.0, contact_distance, 0.0});
+  if (overlap.largest_overlap <= 1e-6 * d) return;
+  throw SetupError(
+      fmt::format("the drop overlaps the solid at the start: the particle at x = {:.6g} m, y = {:.6g} m is nearer to "
+                  "the solid than "
+                  "the contact distance of {:g} m by {:.3g} m and would be shot away; make drop.gap (now {:g} m) "
+                  "larger by at least "
+                  "that much, or move the drop (drop.centre_x, now {:g} m) off the clamps",
+                  fluid.x[overlap.deepest], fluid.y[overlap.deepest], contact_distance, overlap.largest_overlap,
+                  input.drop.gap, state.drop_centre.x));
+}
+
+}  // namespace
+
+InitialState build_initial_state(const Case& input) {
+  refuse_too_many_particles(input);
+  InitialState state;
+  state.solid = build_solid(input);
+  const DropParticles drop = build_drop(input);
+  if (drop.positions.empty()) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    state.drop_centre = {nan, nan};
+    return state;
+  }
+  state.drop_centre = {drop_centre_x(input), drop_centre_y(input, drop, state.solid)};
+  state.fluid = place_drop(input, drop, state.drop_centre);
+  refuse_overlap(input, state);
+  return state;
+}
+
+}  // namespace sphdrop

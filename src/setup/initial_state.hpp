@@ -1,0 +1,23 @@
+#pragma once
+// From a case to its particles. Runs alike on every process and gives the same bits on every machine.
+
+#include "config/case.hpp"
+#include "particles/vector.hpp"
+#include "setup/initial_particles.hpp"
+
+namespace sphdrop {
+
+struct InitialState {
+  InitialFluid fluid;
+  InitialSolid solid;
+  Vector drop_centre;  ///< m; NaN without a drop
+};
+
+/// The case's drop and solid. The drop's lowest particle is d/2 + gap above the solid's surface; without a solid the
+/// drop is centred at the origin or, in x, where the case says. Where the case leaves the drop's x open (NaN), it is L
+/// - D0/2 over a cantilever, L/2 over a beam fixed at both ends, 0 otherwise. Throws SetupError for a drop nearer to
+/// the solid than the contact distance (beyond rounding, 1e-6 d), which Eq 24 would shoot away, for more than 1e8
+/// particles, and for what build_beam() refuses.
+InitialState build_initial_state(const Case& input);
+
+}  // namespace sphdrop

@@ -1,0 +1,156 @@
+#include "simulation/contact_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "contact/contact_force.hpp"
+
+namespace sphdrop {
+
+ContactStep::ContactStep(const Communicator& communicator, const Case& input,
+                         const std::vector<std::vector<std::int64_t>>& polylines)
+    : communicator_(communicator),
+      stiffness_(input.contact.stiffness),
+      contact_distance_(input.contact.distance_ratio * input.resolution.spacing),
+      overlap_limit_(input.contact.overlap_limit) {
+  for (const auto& polyline : polylines) vertex_ids_.insert(vertex_ids_.end(), polyline.begin(), polyline.end());
+  std::sort(vertex_ids_.begin(), vertex_ids_.end());
+  vertex_ids_.erase(std::unique(vertex_ids_.begin(), vertex_ids_.end()), vertex_ids_.end());
+  std::vector<std::vector<std::int32_t>> vertices;
+  for (const auto& polyline : polylines) {
+    std::vector<std::int32_t>& indices = vertices.emplace_back();
+    for (const std::int64_t id : polyline)
+      indices.push_back(static_cast<std::int32_t>(std::lower_bound(vertex_ids_.begin(), vertex_ids_.end(), id) -
+                                                  vertex_ids_.begin()));
+  }
+  segments_ = segments_of_polylines(vertices);
+}
+
+ContactParameters ContactStep::parameters(double step) const {
+  return {time_step_spring_rate(stiffness_, step), contact_distance_, overlap_limit_};
+}
+
+void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& solid, const InteractionRange& range) {
+  if (segments_.empty()) return;
+
+  // The whole boundary on every rank: O(sqrt N) positions, once in hundreds of steps.
+  struct Vertex {
+    std::int64_t index;
+    std::int64_t row;
+    Vector position;
+  };
+  std::vector<Vertex> mine;
+  solid.for_each_owned([&](std::size_t row) {
+    const auto found = std::lower_bound(vertex_ids_.begin(), vertex_ids_.end(), solid.id[row]);
+    if (found != vertex_ids_.end() && *found == solid.id[row])
+      mine.push_back({found - vertex_ids_.begin(), static_cast<std::int64_t>(row), solid.position.at(row)});
+  });
+  std::vector<double> x(vertex_ids_.size()), y(vertex_ids_.size());
+  for (const Vertex& v : communicator_.all_gather(std::span<const Vertex>(mine))) {
+    x[static_cast<std::size_t>(v.index)] = v.position.x;
+    y[static_cast<std::size_t>(v.index)] = v.position.y;
+  }
+
+  // Until the next redistribution liquid and boundary each come nearer by half a skin at most.
+  const double reach = contact_distance_ + range.skin;
+  ContactSolver search;
+  const std::size_t owned = fluid.owned_count();
+  search.rebuild({fluid.position.x.data(), owned}, {fluid.position.y.data(), owned}, x, y, segments_, reach);
+  std::vector<std::int64_t> fluid_ids, wanted_here;
+  fluid_rows_.assign(search.active_particles().begin(), search.active_particles().end());
+  for (std::size_t k = 0; k < fluid_rows_.size(); ++k) {
+    fluid_ids.push_back(fluid.id[static_cast<std::size_t>(fluid_rows_[k])]);
+    for (const std::int32_t segment : search.candidates(k)) wanted_here.push_back(segment);
+  }
+  std::sort(wanted_here.begin(), wanted_here.end());
+  wanted_here.erase(std::unique(wanted_here.begin(), wanted_here.end()), wanted_here.end());
+  std::vector<char> is_wanted(segments_.size(), 0);
+  for (const std::int64_t segment : communicator_.all_gather(std::span<const std::int64_t>(wanted_here)))
+    is_wanted[static_cast<std::size_t>(segment)] = 1;
+  SurfacePart part = part_of_surface(segments_, is_wanted);
+
+  std::vector<std::int64_t> solid_ids;
+  solid_rows_.clear();
+  for (const Vertex& v : mine) {
+    if (!std::binary_search(part.original_vertices.begin(), part.original_vertices.end(),
+                            static_cast<std::int32_t>(v.index)))
+      continue;
+    solid_rows_.push_back(static_cast<std::int32_t>(v.row));
+    solid_ids.push_back(solid.id[static_cast<std::size_t>(v.row)]);
+  }
+  const int owner =
+      rank_with_most(communicator_, static_cast<std::int64_t>(fluid_rows_.size() + solid_rows_.size()));
+  move_record(owner);
+  fluid_gather_ = InterfaceGather(communicator_, fluid_ids, fluid_rows_, owner, tags::contact_fluid);
+  solid_gather_ = InterfaceGather(communicator_, solid_ids, solid_rows_, owner, tags::contact_solid);
+  returned_fluid_x_.assign(fluid.size(), 0.0);
+  returned_fluid_y_.assign(fluid.size(), 0.0);
+  returned_solid_x_.assign(solid.size(), 0.0);
+  returned_solid_y_.assign(solid.size(), 0.0);
+
+  const std::size_t particles = fluid_gather_.ids().size(), vertices = solid_gather_.ids().size();
+  for (auto* column : {&fluid_x_, &fluid_y_, &fluid_mass_, &acceleration_x_, &acceleration_y_}) column->resize(particles);
+  for (auto* column : {&vertex_x_, &vertex_y_, &force_x_, &force_y_}) column->resize(vertices);
+  fluid_gather_.start_gather(
+      std::array<const void*, 3>{fluid.position.x.data(), fluid.position.y.data(), fluid.mass.data()});
+  fluid_gather_.finish_gather(std::array<void*, 3>{fluid_x_.data(), fluid_y_.data(), fluid_mass_.data()});
+  solid_gather_.start_gather(std::array<const void*, 2>{solid.position.x.data(), solid.position.y.data()});
+  solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+  // Vertices of the part and gathered ids both ascend with the id, so their places agree.
+  assert(owner != communicator_.rank() || vertices == part.original_vertices.size());
+  solver_.rebuild(fluid_x_, fluid_y_, vertex_x_, vertex_y_,
+                  owner == communicator_.rank() ? part.segments : std::vector<Segment>{}, reach);
+}
+
+void ContactStep::move_record(int new_owner) {
+  if (new_owner == owner_) return;
+  std::vector<double> numbers;
+  if (communicator_.rank() == owner_) numbers = record_.to_numbers();
+  communicator_.broadcast(numbers, owner_);
+  record_ = ContactRecord::from_numbers(numbers);
+  owner_ = new_owner;
+}
+
+void ContactStep::start(const FluidParticles& fluid, const SolidParticles& solid) {
+  if (segments_.empty()) return;
+  fluid_gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
+  solid_gather_.start_gather(std::array<const void*, 2>{solid.position.x.data(), solid.position.y.data()});
+}
+
+void ContactStep::work(double time, double step, double kick) {
+  if (segments_.empty()) return;
+  fluid_gather_.finish_gather(std::array<void*, 2>{fluid_x_.data(), fluid_y_.data()});
+  solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+  if (owner_ == communicator_.rank()) {
+    for (auto* column : {&acceleration_x_, &acceleration_y_, &force_x_, &force_y_})
+      std::fill(column->begin(), column->end(), 0.0);
+    summary_ = solver_.apply({fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_},
+                             {vertex_x_, vertex_y_, force_x_, force_y_}, parameters(step));
+    record_.add(time, kick, summary_.count, summary_.force_on_solid);
+  }
+  fluid_gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
+  solid_gather_.start_scatter(std::array<const void*, 2>{force_x_.data(), force_y_.data()});
+}
+
+void ContactStep::finish(FluidParticles& fluid, SolidParticles& solid) {
+  if (segments_.empty()) return;
+  fluid_gather_.finish_scatter(std::array<void*, 2>{returned_fluid_x_.data(), returned_fluid_y_.data()});
+  solid_gather_.finish_scatter(std::array<void*, 2>{returned_solid_x_.data(), returned_solid_y_.data()});
+  for (const std::int32_t k : fluid_rows_) {
+    const auto row = static_cast<std::size_t>(k);
+    fluid.acceleration.x[row] += returned_fluid_x_[row];
+    fluid.acceleration.y[row] += returned_fluid_y_[row];
+  }
+  for (const std::int32_t k : solid_rows_) {
+    const auto row = static_cast<std::size_t>(k);
+    solid.acceleration.x[row] += returned_solid_x_[row] / solid.mass[row];
+    solid.acceleration.y[row] += returned_solid_y_[row] / solid.mass[row];
+  }
+}
+
+std::int64_t ContactStep::deepest_particle() const {
+  return summary_.deepest < 0 ? -1 : fluid_gather_.ids()[static_cast<std::size_t>(summary_.deepest)];
+}
+
+}  // namespace sphdrop

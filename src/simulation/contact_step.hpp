@@ -1,0 +1,66 @@
+#pragma once
+// Contact between a distributed drop and a distributed solid (Sec. 2.4): gather, solve at the interface's owner, scatter.
+
+#include <vector>
+
+#include "config/case.hpp"
+#include "contact/contact_solver.hpp"
+#include "contact/contact_surface.hpp"
+#include "decomposition/interface_gather.hpp"
+#include "diagnostics/contact_record.hpp"
+#include "particles/fluid_particles.hpp"
+#include "particles/solid_particles.hpp"
+#include "simulation/distribution.hpp"
+
+namespace sphdrop {
+
+/// In a step: start(), work(), finish(). Only the liquid within reach of the boundary and the boundary within reach of the
+/// liquid are gathered.
+class ContactStep {
+ public:
+  /// `polylines`: the solid's boundary as global ids, the solid on the right.
+  ContactStep(const Communicator& communicator, const Case& input,
+              const std::vector<std::vector<std::int64_t>>& polylines);
+
+  /// Collective, after every redistribution: who may touch whom until the next one.
+  void regather(const FluidParticles& fluid, const SolidParticles& solid, const InteractionRange& range);
+
+  /// Sends positions to the owner.
+  void start(const FluidParticles& fluid, const SolidParticles& solid);
+  /// At the owner: forces at `time`, where Eq 24 takes the step to come, and the impulse they give over the time they act,
+  /// `kick`; starts sending them back. All in s.
+  void work(double time, double step, double kick);
+  /// Adds the accelerations to liquid and boundary rows.
+  void finish(FluidParticles& fluid, SolidParticles& solid);
+
+  int owner() const { return owner_; }
+  /// At the owner, of the step last worked on.
+  const ContactSummary& summary() const { return summary_; }
+  const ContactRecord& record() const { return record_; }
+  /// At the owner: whether an overlap is beyond the limit, and the global id of the deepest particle (-1: none).
+  bool overlap_is_too_deep() const { return summary_.overlap_is_too_deep(parameters(1.0)); }
+  std::int64_t deepest_particle() const;
+
+ private:
+  ContactParameters parameters(double step) const;
+  void move_record(int new_owner);
+
+  const Communicator& communicator_;
+  double stiffness_, contact_distance_, overlap_limit_;
+  std::vector<std::int64_t> vertex_ids_;  // ascending; a vertex' index is its place here
+  std::vector<Segment> segments_;
+
+  int owner_ = 0;
+  InterfaceGather fluid_gather_, solid_gather_;
+  std::vector<std::int32_t> fluid_rows_, solid_rows_;
+  std::vector<double> returned_fluid_x_, returned_fluid_y_, returned_solid_x_, returned_solid_y_;
+
+  // At the owner.
+  ContactSolver solver_;
+  ContactSummary summary_;
+  ContactRecord record_;
+  std::vector<double> fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_;
+  std::vector<double> vertex_x_, vertex_y_, force_x_, force_y_;
+};
+
+}  // namespace sphdrop

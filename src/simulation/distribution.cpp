@@ -1,0 +1,90 @@
+#include "simulation/distribution.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "simulation/particle_transport.hpp"
+
+namespace sphdrop {
+
+namespace {
+
+// What a particle costs in a step, relative to others: the solid's pair sums are about half as long again.
+constexpr std::int32_t fluid_load = 2, solid_load = 3;
+
+}  // namespace
+
+Distribution::Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold)
+    : communicator_(communicator), range_(range), partition_(communicator, range.list_reach(), imbalance_threshold) {}
+
+void Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bool force) {
+  std::vector<double> x, y;
+  std::vector<std::int32_t> load;
+  const auto collect = [&](const auto& set, std::int32_t cost) {
+    set.for_each_owned([&](std::size_t row) {
+      x.push_back(set.position.x[row]);
+      y.push_back(set.position.y[row]);
+      load.push_back(cost);
+    });
+  };
+  collect(fluid, fluid_load);
+  collect(solid, solid_load);
+  partition_.update(x, y, load, force);
+
+  std::vector<int> destination(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) destination[k] = partition_.owner_of(x[k], y[k]);
+  const std::size_t fluid_rows = fluid.owned_count();
+  migrate(communicator_, fluid, std::span(destination).first(fluid_rows), tags::migration);
+  migrate(communicator_, solid, std::span(destination).subspan(fluid_rows), tags::migration + 1);
+  make_fluid_ghosts(fluid);
+  make_solid_ghosts(solid);
+}
+
+void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
+  const std::size_t owned = fluid.size();
+  // Rows near other ranks last; within the two groups by cell, so that neighbours are near in memory.
+  struct Key {
+    bool border;
+    std::int64_t cell_y, cell_x, id;
+    std::int32_t row;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys(owned);
+  std::vector<int> ranks;
+  const double inverse_cell = 1.0 / range_.list_reach();
+  for (std::size_t row = 0; row < owned; ++row) {
+    const Vector p = fluid.position.at(row);
+    ranks.clear();
+    partition_.other_ranks_within(p.x, p.y, range_.list_reach(), ranks);
+    keys[row] = {!ranks.empty(), static_cast<std::int64_t>(std::floor(p.y * inverse_cell)),
+                 static_cast<std::int64_t>(std::floor(p.x * inverse_cell)), fluid.id[row], static_cast<std::int32_t>(row)};
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::int32_t> order(owned);
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.row; });
+  reorder(fluid, order);
+  const auto inner = static_cast<std::int32_t>(
+      std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.border; }) - keys.begin());
+
+  fluid_halo_ = make_halo(communicator_, fluid, fluid.position, partition_, range_.list_reach(), tags::fluid_halo);
+  // The halo of detection reaches the circles that overlap a particle's own, 4h away.
+  wide_halo_ = halo_plan(communicator_, fluid, fluid.position, partition_, 2.0 * range_.support + range_.skin,
+                         tags::wide_halo);
+  const auto end = static_cast<std::int32_t>(owned);
+  inner_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {0, inner}, range_.list_reach());
+  border_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {inner, end}, range_.list_reach());
+  std::copy(fluid.position.x.begin(), fluid.position.x.end(), fluid.list_position.x.begin());
+  std::copy(fluid.position.y.begin(), fluid.position.y.end(), fluid.list_position.y.begin());
+}
+
+void Distribution::make_solid_ghosts(SolidParticles& solid) {
+  solid_halo_ = make_halo(communicator_, solid, solid.position, partition_, range_.list_reach(), tags::solid_halo);
+  sort_by_id(solid, solid_halo_);
+  solid_ = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, range_.list_reach());
+  std::copy(solid.position.x.begin(), solid.position.x.end(), solid.list_position.x.begin());
+  std::copy(solid.position.y.begin(), solid.position.y.end(), solid.list_position.y.begin());
+}
+
+}  // namespace sphdrop

@@ -1,0 +1,63 @@
+#pragma once
+// Which particles live here, which are here as ghosts, and who is whose neighbour.
+
+#include "config/case.hpp"
+#include "decomposition/domain_partition.hpp"
+#include "decomposition/exchange_plan.hpp"
+#include "particles/fluid_particles.hpp"
+#include "particles/solid_particles.hpp"
+#include "sph/offset_neighbours.hpp"
+#include "sph/sliced_neighbours.hpp"
+
+namespace sphdrop {
+
+/// Message tags: one range for every plan, as several are in flight at a time.
+namespace tags {
+inline constexpr int migration = 100, fluid_halo = 110, solid_halo = 120, wide_halo = 130, surface = 140, contact_fluid = 150,
+                     contact_solid = 160;
+}
+
+/// Lengths of the lists and halos.
+struct InteractionRange {
+  double support = 0;  ///< 2h, m
+  double skin = 0;     ///< lists reach 2h + skin, m; they hold until a particle has moved by half of it
+
+  double list_reach() const { return support + skin; }
+  double largest_displacement() const { return 0.5 * skin; }
+};
+
+/// The particles' distribution over ranks, remade by redistribute() and used by every step in between.
+class Distribution {
+ public:
+  Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold);
+
+  /// Collective. Moves every particle to the rank that owns its place (repartitioning if the loads ask for it, or
+  /// `force`), makes ghosts of what other ranks hold within reach, and lists the neighbours. Needs the state columns of
+  /// owned rows; afterwards those, the constant columns and the positions of ghosts are good, everything else is not.
+  void redistribute(FluidParticles& fluid, SolidParticles& solid, bool force);
+
+  ExchangePlan& fluid_halo() { return fluid_halo_; }
+  ExchangePlan& solid_halo() { return solid_halo_; }
+  /// Positions within 4h + skin, which surface detection looks at: what arrives is stored behind the owned rows.
+  ExchangePlan& wide_halo() { return wide_halo_; }
+
+  /// Owned liquid rows: those without a ghost in reach, swept while the halo is under way, and the others.
+  const SlicedNeighbours& inner_fluid() const { return inner_fluid_; }
+  const SlicedNeighbours& border_fluid() const { return border_fluid_; }
+  const OffsetNeighbours& solid() const { return solid_; }
+  const InteractionRange& range() const { return range_; }
+  const PartitionQuality& quality() const { return partition_.quality(); }
+
+ private:
+  void make_fluid_ghosts(FluidParticles& fluid);
+  void make_solid_ghosts(SolidParticles& solid);
+
+  const Communicator& communicator_;
+  InteractionRange range_;
+  DomainPartition partition_;
+  ExchangePlan fluid_halo_, solid_halo_, wide_halo_;
+  SlicedNeighbours inner_fluid_, border_fluid_;
+  OffsetNeighbours solid_;
+};
+
+}  // namespace sphdrop

@@ -1,0 +1,222 @@
+#include "simulation/observation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "decomposition/exact_sum.hpp"
+#include "diagnostics/energy.hpp"
+#include "diagnostics/state_hash.hpp"
+
+namespace sphdrop {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Sums over all particles of all ranks, exact and therefore independent of who holds them.
+enum Sum : std::size_t {
+  fluid_mass, fluid_x, fluid_y, fluid_xx, fluid_yy, fluid_pressure, fluid_momentum_x, fluid_momentum_y, fluid_spin,
+  fluid_kinetic, fluid_compressive, fluid_heat, fluid_correction,
+  solid_mass_x, solid_mass_y, solid_momentum_x, solid_momentum_y, solid_spin, solid_kinetic, solid_elastic, solid_heat, solid_artificial,
+  probe_deflection, sum_count
+};
+using Sums = std::array<ExactSum, sum_count>;
+
+void add_fluid(const Simulation& simulation, Sums& sums) {
+  const FluidParticles& f = simulation.fluid();
+  const Case& c = simulation.input();
+  f.for_each_owned([&](std::size_t row) {
+    const double m = f.mass[row];
+    const Vector x = f.position.at(row), v = f.velocity.at(row);
+    sums[fluid_mass].add(m);
+    sums[fluid_x].add(m * x.x);
+    sums[fluid_y].add(m * x.y);
+    sums[fluid_xx].add(m * x.x * x.x);
+    sums[fluid_yy].add(m * x.y * x.y);
+    sums[fluid_pressure].add(f.pressure[row]);
+    sums[fluid_momentum_x].add(m * v.x);
+    sums[fluid_momentum_y].add(m * v.y);
+    sums[fluid_spin].add(m * cross(x, v));
+    sums[fluid_kinetic].add(kinetic_energy(m, v));
+    sums[fluid_compressive].add(m * compressive_energy_per_mass(f.density[row], c.fluid.density, c.fluid.sound_speed));
+    sums[fluid_heat].add(f.dissipated_energy[row]);
+    sums[fluid_correction].add(f.correction_energy[row]);
+  });
+}
+
+void add_solid(const Simulation& simulation, Sums& sums) {
+  const SolidParticles& s = simulation.solid();
+  const Case& c = simulation.input();
+  const ElasticMaterial& material = simulation.parameters().solid.material;
+  const bool plane_strain = c.solid.deviatoric_trace == DeviatoricTrace::plane_strain;
+  const std::vector<std::int64_t>& probe = simulation.deflection_probe();
+  s.for_each_owned([&](std::size_t row) {
+    const double m = s.mass[row];
+    const Vector x = s.position.at(row), v = s.velocity.at(row);
+    if (s.mobility[row] > 0) {
+      sums[solid_mass_x].add(m * x.x);
+      sums[solid_mass_y].add(m * x.y);
+    }
+    sums[solid_momentum_x].add(m * v.x);
+    sums[solid_momentum_y].add(m * v.y);
+    sums[solid_spin].add(m * cross(x, v));
+    sums[solid_kinetic].add(kinetic_energy(m, v));
+    const double xx = s.deviatoric_stress.xx[row], yy = s.deviatoric_stress.yy[row], xy = s.deviatoric_stress.xy[row];
+    const DeviatoricStress tau = plane_strain ? plane_strain_deviator(xx, yy, xy) : two_dimensional_deviator(xx, yy, xy);
+    sums[solid_elastic].add(m / s.density[row] * distortion_energy_density(tau, material.shear_modulus()) +
+                            m * compressive_energy_per_mass(s.density[row], material.density, material.sound_speed()));
+    sums[solid_heat].add(s.dissipated_energy[row]);
+    sums[solid_artificial].add(s.artificial_stress_work[row]);
+    if (std::binary_search(probe.begin(), probe.end(), s.id[row])) sums[probe_deflection].add(x.y - s.reference_position.y[row]);
+  });
+}
+
+struct Extent {
+  double left = infinity, right = -infinity, bottom = infinity, top = -infinity;
+};
+
+// Width and height from the extreme particles, half a spacing beyond each.
+Extent drop_extent(const Simulation& simulation, double& density_error) {
+  const FluidParticles& f = simulation.fluid();
+  std::array<double, 5> largest{-infinity, -infinity, -infinity, -infinity, 0.0};
+  f.for_each_owned([&](std::size_t row) {
+    const Vector x = f.position.at(row);
+    largest[0] = std::max(largest[0], -x.x);
+    largest[1] = std::max(largest[1], x.x);
+    largest[2] = std::max(largest[2], -x.y);
+    largest[3] = std::max(largest[3], x.y);
+    largest[4] = std::max(largest[4], std::abs(f.density[row] / simulation.input().fluid.density - 1.0));
+  });
+  simulation.communicator().max_in_place(largest);
+  density_error = largest[4];
+  return {-largest[0], largest[1], -largest[2], largest[3]};
+}
+
+// The mass centre of the drop's upper right quarter, relative to the whole drop's.
+Vector quarter_centre(const Simulation& simulation, Vector centre) {
+  const FluidParticles& f = simulation.fluid();
+  std::array<ExactSum, 3> sums;
+  f.for_each_owned([&](std::size_t row) {
+    const Vector r = f.position.at(row) - centre;
+    if (!(r.x > 0 && r.y > 0)) return;
+    sums[0].add(f.mass[row]);
+    sums[1].add(f.mass[row] * r.x);
+    sums[2].add(f.mass[row] * r.y);
+  });
+  ExactSum::reduce(sums, simulation.communicator());
+  return Vector{sums[1].value(), sums[2].value()} / sums[0].value();
+}
+
+void observe_drop(const Simulation& simulation, const std::array<double, sum_count>& sum, Observation& o) {
+  const double mass = sum[fluid_mass];
+  const Vector centre{sum[fluid_x] / mass, sum[fluid_y] / mass};
+  const Extent extent = drop_extent(simulation, o.largest_density_error);
+  o.drop_width = extent.right - extent.left + simulation.input().resolution.spacing;
+  o.drop_height = extent.top - extent.bottom + simulation.input().resolution.spacing;
+  o.drop_centre_x = centre.x;
+  o.drop_centre_y = centre.y;
+  o.drop_velocity_x = sum[fluid_momentum_x] / mass;
+  o.drop_velocity_y = sum[fluid_momentum_y] / mass;
+  o.drop_elongation = (sum[fluid_xx] - sum[fluid_yy]) / mass - (centre.x * centre.x - centre.y * centre.y);
+  const Vector quarter = quarter_centre(simulation, centre);
+  o.quarter_centre_x = quarter.x;
+  o.quarter_centre_y = quarter.y;
+  o.mean_pressure = sum[fluid_pressure] / static_cast<double>(simulation.fluid_total());
+
+  if (simulation.surface_tension().is_enabled()) {
+    const SurfaceTensionStep& tension = simulation.surface_tension();
+    std::vector<double> numbers;
+    if (simulation.communicator().rank() == tension.owner()) {
+      const SurfaceReport r = tension.report();
+      numbers = {r.length, r.mean_curvature, r.curvature_scatter, r.curve_count, r.net_force};
+    }
+    simulation.communicator().broadcast(numbers, tension.owner());
+    o.curve_length = numbers[0];
+    o.mean_curvature = numbers[1];
+    o.curvature_scatter = numbers[2];
+    o.curve_count = numbers[3];
+    o.tension_net_force = numbers[4];
+    o.surface = simulation.input().surface_tension.coefficient * o.curve_length;
+  }
+}
+
+void observe_contact(const Simulation& simulation, Observation& o) {
+  const ContactStep& contact = simulation.contact();
+  std::vector<double> numbers;
+  if (simulation.communicator().rank() == contact.owner()) {
+    const ContactSummary& s = contact.summary();
+    const Vector impulse = contact.record().impulse();
+    numbers = {static_cast<double>(s.count), s.force_on_solid.x, s.force_on_solid.y, impulse.x, impulse.y, s.energy};
+  }
+  simulation.communicator().broadcast(numbers, contact.owner());
+  o.contact_count = numbers[0];
+  o.contact_force_x = numbers[1];
+  o.contact_force_y = numbers[2];
+  o.contact_impulse_x = numbers[3];
+  o.contact_impulse_y = numbers[4];
+  o.contact = numbers[5];
+}
+
+}  // namespace
+
+Observation observe(const Simulation& simulation, double initial_total) {
+  Sums sums;
+  add_fluid(simulation, sums);
+  add_solid(simulation, sums);
+  ExactSum::reduce(sums, simulation.communicator());
+  std::array<double, sum_count> sum{};
+  for (std::size_t k = 0; k < sum_count; ++k) sum[k] = sums[k].value();
+
+  Observation o{};
+  for (const ObservedQuantity& quantity : observed_quantities()) o.*quantity.value = nan;
+  o.surface = o.contact = o.largest_density_error = 0.0;
+  o.time = simulation.time();
+  o.step = static_cast<double>(simulation.step());
+  o.time_step = simulation.time_step();
+  if (simulation.fluid_total() > 0) observe_drop(simulation, sum, o);
+  if (!simulation.deflection_probe().empty())
+    o.deflection = sum[probe_deflection] / static_cast<double>(simulation.deflection_probe().size());
+  observe_contact(simulation, o);
+
+  const Case& c = simulation.input();
+  o.kinetic_fluid = sum[fluid_kinetic];
+  o.kinetic_solid = sum[solid_kinetic];
+  o.elastic = sum[solid_elastic];
+  o.compressive = sum[fluid_compressive];
+  o.gravity = -(c.gravity.x * (sum[fluid_x] + sum[solid_mass_x]) + c.gravity.y * (sum[fluid_y] + sum[solid_mass_y]));
+  o.dissipated_fluid = sum[fluid_heat];
+  o.dissipated_solid = sum[solid_heat];
+  o.density_correction = sum[fluid_correction];
+  o.artificial_stress_work = sum[solid_artificial];
+  o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.contact + o.gravity;
+  o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid - o.density_correction - o.artificial_stress_work -
+                  initial_total;
+  o.momentum_fluid_x = sum[fluid_momentum_x];
+  o.momentum_fluid_y = sum[fluid_momentum_y];
+  o.momentum_solid_x = sum[solid_momentum_x];
+  o.momentum_solid_y = sum[solid_momentum_y];
+  o.angular_momentum_fluid = sum[fluid_spin];
+  o.angular_momentum_solid = sum[solid_spin];
+  return o;
+}
+
+std::uint64_t state_hash(const Simulation& simulation) {
+  std::uint64_t hash = 0;
+  const FluidParticles& f = simulation.fluid();
+  f.for_each_owned([&](std::size_t row) {
+    const double p = f.pressure[row];
+    hash += particle_hash({f.id[row], f.position.x[row], f.position.y[row], f.velocity.x[row], f.velocity.y[row],
+                           f.density[row], -p, -p, 0.0});
+  });
+  const SolidParticles& s = simulation.solid();
+  s.for_each_owned([&](std::size_t row) {
+    hash += particle_hash({s.id[row], s.position.x[row], s.position.y[row], s.velocity.x[row], s.velocity.y[row],
+                           s.density[row], s.stress.xx[row], s.stress.yy[row], s.stress.xy[row]});
+  });
+  return simulation.communicator().sum(hash);
+}
+
+}  // namespace sphdrop

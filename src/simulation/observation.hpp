@@ -1,0 +1,44 @@
+#pragma once
+// What is watched in a run (method.md, section 7), and the table from which history.csv follows.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "simulation/simulation.hpp"
+
+namespace sphdrop {
+
+/// The watched quantities at one instant, per metre of depth; the same on every rank, and the same bits for any number of
+/// them. NaN for what the case does not have.
+struct Observation {
+  double time, step, time_step;
+  double drop_width, drop_height, deflection;
+  double drop_centre_x, drop_centre_y, drop_velocity_x, drop_velocity_y;
+  double drop_elongation, quarter_centre_x, quarter_centre_y;
+  double mean_pressure, curve_length, mean_curvature, curvature_scatter, curve_count, tension_net_force;
+  double contact_count, contact_force_x, contact_force_y, contact_impulse_x, contact_impulse_y;
+  double kinetic_fluid, kinetic_solid, elastic, compressive, surface, contact, gravity;
+  double dissipated_fluid, dissipated_solid, density_correction, artificial_stress_work;
+  double total, unaccounted;
+  double momentum_fluid_x, momentum_fluid_y, momentum_solid_x, momentum_solid_y;
+  double angular_momentum_fluid, angular_momentum_solid;
+  double largest_density_error;
+};
+
+/// Collective. Looks at the state between evaluate() and move(). `initial_total` is the total energy of the first
+/// observation, from which `unaccounted` counts.
+Observation observe(const Simulation& simulation, double initial_total);
+
+/// The 64-bit hash over id, position, velocity, density and stress of every particle at the present instant; collective.
+std::uint64_t state_hash(const Simulation& simulation);
+
+struct ObservedQuantity {
+  std::string_view name, unit, description;
+  double Observation::* value;
+};
+
+/// Every quantity of an Observation, in the order of history.csv's columns.
+std::span<const ObservedQuantity> observed_quantities();
+
+}  // namespace sphdrop

@@ -1,0 +1,247 @@
+#include "simulation/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnostics/theory.hpp"
+
+namespace sphdrop {
+
+namespace {
+
+std::vector<HistoryColumn> history_columns() {
+  std::vector<HistoryColumn> columns;
+  for (const ObservedQuantity& q : observed_quantities())
+    columns.push_back({std::string(q.name), std::string(q.unit), std::string(q.description)});
+  return columns;
+}
+
+// Due times are multiples of the interval, so that they do not depend on when the run was started or interrupted.
+double next_multiple(double time, double interval) { return interval * (std::floor(time / interval * (1 + 1e-12)) + 1.0); }
+
+std::optional<double> if_known(double value) {
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+double elapsed(std::chrono::steady_clock::time_point since) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+}  // namespace
+
+Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
+    : simulation_(simulation),
+      options_(options),
+      snapshots_(simulation.communicator(), options.directory),
+      progress_(stderr, simulation.communicator().rank() == 0 ? options.progress : Progress::Mode::quiet, options.end_time),
+      start_(std::chrono::steady_clock::now()) {
+  on_first_rank([&] { history_.emplace(HistoryWriter::create(options_.directory, history_columns())); });
+}
+
+template <class F>
+void Recorder::on_first_rank(F&& f) {
+  std::string error;
+  if (simulation_.communicator().rank() == 0) {
+    try {
+      f();
+    } catch (const std::exception& e) {
+      error = e.what();
+    }
+  }
+  simulation_.communicator().broadcast(error, 0);
+  if (!error.empty()) throw HistoryError(error);
+}
+
+void Recorder::observe() {
+  const double time = simulation_.time();
+  const Case& c = simulation_.input();
+  if (time < next_row_ && time < next_snapshot_) return;
+  simulation_.timer().lap(Phase::update);
+  if (time >= next_row_) {
+    write_row();
+    next_row_ = next_multiple(time, c.output.history_interval);
+  }
+  if (time >= next_snapshot_) {
+    write_snapshot();
+    next_snapshot_ = c.output.snapshot_interval > 0 ? next_multiple(time, c.output.snapshot_interval)
+                                                    : std::numeric_limits<double>::infinity();
+  }
+  simulation_.timer().lap(Phase::output);
+}
+
+std::uint64_t Recorder::finish() {
+  if (!last_ || last_->step != static_cast<double>(simulation_.step())) write_row();
+  if (last_snapshot_step_ != simulation_.step()) write_snapshot();
+  on_first_rank([&] { history_->close(); });
+  progress_.finish();
+  return hash_;
+}
+
+void Recorder::write_row() {
+  const Observation o = sphdrop::observe(simulation_, first_ ? first_->total : 0.0);
+  if (!first_) {
+    first_ = o;
+    first_->unaccounted = 0.0;
+  }
+  last_ = o;
+  last_->unaccounted = last_->unaccounted - (first_->step == o.step ? o.unaccounted : 0.0);
+  const std::int64_t touching = static_cast<std::int64_t>(o.contact_count);
+  if (std::isfinite(o.drop_width) || std::isfinite(o.deflection))
+    extremes_.add(o.time, std::isfinite(o.drop_width) ? o.drop_width : 0.0, std::isfinite(o.deflection) ? o.deflection : 0.0,
+                  touching, std::isfinite(o.drop_velocity_y) ? o.drop_velocity_y : 0.0);
+  on_first_rank([&] {
+    std::vector<double> values;
+    for (const ObservedQuantity& q : observed_quantities()) values.push_back((*last_).*q.value);
+    history_->append(values);
+  });
+  const double kinetic = first_->kinetic_fluid + first_->kinetic_solid;
+  ProgressSample sample;
+  sample.time = o.time;
+  sample.step = simulation_.step();
+  sample.wall_seconds = elapsed(start_);
+  sample.drop_width = if_known(o.drop_width);
+  sample.deflection = if_known(o.deflection);
+  if (kinetic > 0) sample.energy_error = last_->unaccounted / kinetic;
+  progress_.update(sample);
+}
+
+void Recorder::write_snapshot() {
+  hash_ = state_hash(simulation_);
+  const FluidParticles& f = simulation_.fluid();
+  const SolidParticles& s = simulation_.solid();
+  const std::size_t rows = f.owned_count() + s.owned_count();
+  std::vector<std::int64_t> id, material, is_fixed;
+  std::vector<double> mass, x, y, vx, vy, density, pressure, xx, yy, xy;
+  id.reserve(rows);
+  f.for_each_owned([&](std::size_t row) {
+    id.push_back(f.id[row]);
+    material.push_back(0);
+    is_fixed.push_back(0);
+    mass.push_back(f.mass[row]);
+    x.push_back(f.position.x[row]);
+    y.push_back(f.position.y[row]);
+    vx.push_back(f.velocity.x[row]);
+    vy.push_back(f.velocity.y[row]);
+    density.push_back(f.density[row]);
+    pressure.push_back(f.pressure[row]);
+    xx.push_back(-f.pressure[row]);
+    yy.push_back(-f.pressure[row]);
+    xy.push_back(0.0);
+  });
+  s.for_each_owned([&](std::size_t row) {
+    id.push_back(s.id[row]);
+    material.push_back(1);
+    is_fixed.push_back(s.mobility[row] > 0 ? 0 : 1);
+    mass.push_back(s.mass[row]);
+    x.push_back(s.position.x[row]);
+    y.push_back(s.position.y[row]);
+    vx.push_back(s.velocity.x[row]);
+    vy.push_back(s.velocity.y[row]);
+    density.push_back(s.density[row]);
+    pressure.push_back(s.pressure[row]);
+    xx.push_back(s.stress.xx[row]);
+    yy.push_back(s.stress.yy[row]);
+    xy.push_back(s.stress.xy[row]);
+  });
+  const std::vector<SnapshotColumn> columns{
+      SnapshotColumn::integer("material", "0: liquid, 1: solid", material),
+      SnapshotColumn::integer("is_fixed", "1: a particle that a clamp or wall holds", is_fixed),
+      SnapshotColumn::scalar("mass", "kg/m", "mass per metre of depth", mass),
+      SnapshotColumn::vector("velocity", "m/s", "velocity", vx, vy),
+      SnapshotColumn::scalar("density", "kg/m3", "density", density),
+      SnapshotColumn::scalar("pressure", "Pa", "pressure (Eqs 4, 5)", pressure),
+      SnapshotColumn::scalar("stress_xx", "Pa", "total stress; the liquid's is -p", xx),
+      SnapshotColumn::scalar("stress_yy", "Pa", "total stress; the liquid's is -p", yy),
+      SnapshotColumn::scalar("stress_xy", "Pa", "total stress; the liquid's is 0", xy),
+  };
+  const SnapshotHeader header{simulation_.time(), simulation_.step(), hash_, simulation_.input().name, options_.version};
+  last_snapshot_ = snapshots_.write(header, {simulation_.fluid_total() + simulation_.solid_total(), id, x, y}, columns);
+  last_snapshot_step_ = simulation_.step();
+}
+
+RunSummary Recorder::summary() const {
+  const Case& c = simulation_.input();
+  const Communicator& communicator = simulation_.communicator();
+  RunSummary r;
+  r.simulated_time = simulation_.time();
+  r.steps = simulation_.step();
+
+  // The contact's record lives at its owner.
+  std::vector<double> record;
+  if (communicator.rank() == simulation_.contact().owner()) record = simulation_.contact().record().to_numbers();
+  communicator.broadcast(record, simulation_.contact().owner());
+  const bool has_drop = simulation_.fluid_total() > 0, has_solid = simulation_.solid_total() > 0;
+  const bool is_beam = c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam;
+  if (has_drop && has_solid) r.contact = contact_summary(ContactRecord::from_numbers(record));
+
+  if (has_drop && extremes_.width().sampled())
+    r.drop = RunSummary::Drop{c.drop.diameter, *extremes_.width().sampled(), has_solid ? extremes_.restitution() : std::nullopt};
+
+  if (is_beam && extremes_.depth().sampled()) {
+    const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length, c.solid.thickness};
+    RunSummary::Beam b;
+    b.largest_deflection = *extremes_.depth().sampled();
+    b.length = c.solid.length;
+    const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
+    b.theory_period = period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam));
+    if (is_cantilever && has_drop && c.drop.velocity_y < 0)
+      b.theory_deflection =
+          cantilever_largest_deflection(beam, round_drop_mass(c.fluid.density, c.drop.diameter), -c.drop.velocity_y);
+    r.beam = b;
+  }
+  if (first_ && last_) {
+    if (has_drop) {
+      const double mass = first_->drop_velocity_y != 0 ? first_->momentum_fluid_y / first_->drop_velocity_y
+                                                       : last_->momentum_fluid_y / last_->drop_velocity_y;
+      const double impulse_mass = (c.gravity.x != 0 || c.gravity.y != 0) && std::isfinite(mass) ? mass : 0.0;
+      r.momentum = MomentumLedger{{first_->momentum_fluid_x, first_->momentum_fluid_y},
+                                  {last_->momentum_fluid_x, last_->momentum_fluid_y},
+                                  {last_->contact_impulse_x, last_->contact_impulse_y},
+                                  impulse_mass * last_->time * Vector{c.gravity.x, c.gravity.y}};
+    }
+    const auto term = [&](const char* name, double Observation::* member, double sign = 1.0) {
+      r.energy.push_back({name, sign * ((*first_).*member), sign * ((*last_).*member)});
+    };
+    if (has_drop) {
+      term("kinetic, drop", &Observation::kinetic_fluid);
+      term("compression, drop", &Observation::compressive);
+      term("surface", &Observation::surface);
+      term("dissipated, drop", &Observation::dissipated_fluid);
+      term("density correction", &Observation::density_correction, -1.0);
+    }
+    if (is_beam) {
+      term("kinetic, beam", &Observation::kinetic_solid);
+      term("elastic, beam", &Observation::elastic);
+      term("dissipated, beam", &Observation::dissipated_solid);
+      term("artificial stress", &Observation::artificial_stress_work, -1.0);
+    }
+    if (r.contact) term("contact", &Observation::contact);
+    if (c.gravity.x != 0 || c.gravity.y != 0) term("gravity", &Observation::gravity);
+    r.initial_kinetic_energy = first_->kinetic_fluid + first_->kinetic_solid;
+  }
+
+  r.wall_time = elapsed(start_);
+  const auto& seconds = simulation_.timer().seconds();
+  std::vector<double> all = communicator.all_gather(std::span<const double>(seconds));
+  double largest = 0, total = 0;
+  for (int rank = 0; rank < communicator.size(); ++rank) {
+    const double* mine = all.data() + static_cast<std::size_t>(rank) * seconds.size();
+    double busy = 0;
+    for (const Phase phase : {Phase::fluid_sweep, Phase::solid_sweep, Phase::update, Phase::surface_tension, Phase::contact})
+      busy += mine[static_cast<std::size_t>(phase)];
+    largest = std::max(largest, busy);
+    total += busy;
+  }
+  if (total > 0) r.load_imbalance = largest * communicator.size() / total;
+  for (std::size_t k = 0; k < phase_names.size(); ++k) {
+    double mean = 0;
+    for (int rank = 0; rank < communicator.size(); ++rank) mean += all[static_cast<std::size_t>(rank) * seconds.size() + k];
+    r.phases.push_back({std::string(phase_names[k]), mean / communicator.size()});
+  }
+  r.particles = simulation_.fluid_total() + simulation_.solid_total();
+  r.ranks = communicator.size();
+  r.state_hash = hash_;
+  return r;
+}
+
+}  // namespace sphdrop

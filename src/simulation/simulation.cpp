@@ -1,0 +1,278 @@
+#include "simulation/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "diagnostics/energy.hpp"
+#include "fluid/density_correction.hpp"
+#include "simulation/particle_transport.hpp"
+#include "sph/equation_of_state.hpp"
+
+namespace sphdrop {
+
+namespace {
+
+// What one reduction a step brings to all ranks.
+enum Maximum : std::size_t { squared_speed, squared_displacement, squared_detection_displacement, failure, maxima_count };
+
+std::vector<std::vector<std::int64_t>> global_polylines(const InitialSolid& solid, std::size_t first_id) {
+  std::vector<std::vector<std::int64_t>> polylines;
+  for (const auto& polyline : solid.contact_polylines) {
+    std::vector<std::int64_t>& ids = polylines.emplace_back();
+    for (const std::int32_t index : polyline) ids.push_back(static_cast<std::int64_t>(first_id) + index);
+  }
+  return polylines;
+}
+
+}  // namespace
+
+DerivedParameters::DerivedParameters(const Case& c)
+    : smoothing_length(c.resolution.smoothing_ratio * c.resolution.spacing),
+      kernel(smoothing_length),
+      range{2.0 * smoothing_length, c.parallel.skin * c.resolution.spacing},
+      fluid_pair{kernel,
+                 {c.fluid.artificial_viscosity_alpha, c.fluid.artificial_viscosity_beta, c.fluid.sound_speed,
+                  smoothing_length}},
+      solid{{kernel, {}, 1.0 / kernel.value(c.resolution.spacing)},
+            {c.solid.density, c.solid.youngs_modulus, c.solid.poisson_ratio},
+            c.solid.deviatoric_trace == DeviatoricTrace::plane_strain ? 1.0 / 3.0 : 0.5,
+            c.solid.artificial_stress_coefficient} {
+  const bool is_elastic = c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam;
+  const bool has_drop = c.drop.shape != DropShape::none;
+  const double solid_speed = solid.material.sound_speed();
+  solid.pair.viscosity = {c.solid.artificial_viscosity_alpha, c.solid.artificial_viscosity_beta, solid_speed,
+                          smoothing_length};
+  time_step.sound_cfl = c.time.sound_cfl;
+  time_step.capillary_cfl = c.time.capillary_cfl;
+  time_step.viscous_cfl = c.time.viscous_cfl;
+  time_step.smoothing_length = smoothing_length;
+  time_step.sound_speed = std::max(has_drop ? c.fluid.sound_speed : 0.0, is_elastic ? solid_speed : 0.0);
+  time_step.density = c.fluid.density;
+  const bool has_tension = has_drop && c.surface_tension.form != SurfaceTensionForm::none;
+  time_step.surface_tension = has_tension ? c.surface_tension.coefficient : 0.0;
+  time_step.viscosity = has_drop ? c.fluid.viscosity : 0.0;
+}
+
+Simulation::Simulation(const Communicator& communicator, const Case& input, const InitialFluid& initial_fluid,
+                       const InitialSolid& initial_solid)
+    : communicator_(communicator),
+      case_(input),
+      parameters_(input),
+      distribution_(communicator, parameters_.range, input.parallel.imbalance_threshold),
+      fluid_sweep_(parameters_.fluid_pair),
+      solid_sweep_(parameters_.solid),
+      surface_tension_(communicator, input, parameters_.kernel),
+      contact_(communicator, input, global_polylines(initial_solid, initial_fluid.positions.size())),
+      maxima_(communicator) {
+  fluid_ghosted_ = fluid_.columns_with(Role::ghosted);
+  solid_ghosted_ = solid_.columns_with(Role::ghosted);
+  correction_ghosted_ = {&fluid_.position.x, &fluid_.position.y, &fluid_.density.columns[0]};
+  take_initial_state(initial_fluid, initial_solid);
+  timer_.start();
+  double largest = 0;
+  fluid_.for_each_owned([&](std::size_t row) { largest = std::max(largest, squared_length(fluid_.staggered_velocity.at(row))); });
+  solid_.for_each_owned([&](std::size_t row) { largest = std::max(largest, squared_length(solid_.staggered_velocity.at(row))); });
+  post_maxima({largest, 0, 0, false}, {});
+}
+
+void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSolid& solid) {
+  fluid_total_ = static_cast<std::int64_t>(fluid.positions.size());
+  solid_total_ = static_cast<std::int64_t>(solid.positions.size());
+  // Any share will do: the first redistribution sends every particle home.
+  const auto share = [&](std::int64_t total) {
+    const std::int64_t rank = communicator_.rank(), ranks = communicator_.size();
+    return std::pair(total * rank / ranks, total * (rank + 1) / ranks);
+  };
+  const auto [fluid_first, fluid_last] = share(fluid_total_);
+  fluid_.resize(static_cast<std::size_t>(fluid_last - fluid_first));
+  if (fluid_last > fluid_first) fluid_.owned = {{0, static_cast<std::int32_t>(fluid_last - fluid_first)}};
+  for (std::int64_t k = fluid_first; k < fluid_last; ++k) {
+    const auto row = static_cast<std::size_t>(k - fluid_first), source = static_cast<std::size_t>(k);
+    fluid_.id[row] = k;
+    fluid_.mass[row] = fluid.masses[source];
+    fluid_.position.set(row, fluid.positions[source]);
+    fluid_.detection_position.set(row, fluid.positions[source]);
+    fluid_.staggered_velocity.set(row, fluid.velocities[source]);
+    fluid_.staggered_density[row] = case_.fluid.density;
+  }
+  const auto [solid_first, solid_last] = share(solid_total_);
+  solid_.resize(static_cast<std::size_t>(solid_last - solid_first));
+  if (solid_last > solid_first) solid_.owned = {{0, static_cast<std::int32_t>(solid_last - solid_first)}};
+  for (std::int64_t k = solid_first; k < solid_last; ++k) {
+    const auto row = static_cast<std::size_t>(k - solid_first), source = static_cast<std::size_t>(k);
+    solid_.id[row] = fluid_total_ + k;
+    solid_.mass[row] = solid.masses[source];
+    solid_.mobility[row] = solid.is_fixed[source] ? 0.0 : 1.0;
+    solid_.reference_position.set(row, solid.positions[source]);
+    solid_.position.set(row, solid.positions[source]);
+    solid_.staggered_velocity.set(row, solid.velocities[source]);
+    solid_.staggered_density[row] = case_.solid.density;
+  }
+  for (const std::int32_t index : solid.deflection_probe) deflection_probe_.push_back(fluid_total_ + index);
+
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  box_low_ = {infinity, infinity};
+  box_high_ = {-infinity, -infinity};
+  for (const auto* positions : {&fluid.positions, &solid.positions})
+    for (const Vector& p : *positions) {
+      box_low_ = {std::min(box_low_.x, p.x), std::min(box_low_.y, p.y)};
+      box_high_ = {std::max(box_high_.x, p.x), std::max(box_high_.y, p.y)};
+    }
+  const Vector margin{case_.safety.domain_margin, case_.safety.domain_margin};
+  box_low_ -= margin;
+  box_high_ += margin;
+}
+
+void Simulation::evaluate() {
+  const std::span<const double> maxima = maxima_.finish();
+  timer_.lap(Phase::communication);
+  check_safety(maxima[failure]);
+  detection_is_due_ = surface_tension_.is_enabled() &&
+                      (step_ == 0 || maxima[squared_detection_displacement] >= surface_tension_.largest_squared_displacement());
+  const double squared_speed_now = maxima[squared_speed];
+  redistribute_if_due(maxima[squared_displacement]);
+
+  predict(fluid_, steps_.previous);
+  predict(solid_, steps_.previous);
+  timer_.lap(Phase::update);
+  const std::int64_t interval = case_.fluid.density_correction_interval;
+  if (interval > 0 && step_ > 0 && step_ % interval == 0) correct_density();
+
+  for (const RowRange& range : fluid_.owned)
+    for (std::int32_t k = range.begin; k < range.end; ++k) {
+      const auto row = static_cast<std::size_t>(k);
+      fluid_.pressure[row] = equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
+    }
+  fluid_sweep_.pack(fluid_, fluid_.owned);
+  solid_sweep_.update_stress(solid_, solid_.owned);
+  timer_.lap(Phase::update);
+
+  start_exchange(distribution_.fluid_halo(), fluid_ghosted_);
+  start_exchange(distribution_.solid_halo(), solid_ghosted_);
+  if (detection_is_due_) {
+    surface_tension_.detect(fluid_, distribution_);
+    ++detections_;
+    timer_.lap(Phase::surface_tension);
+  }
+  if (surface_tension_.is_enabled()) surface_tension_.start(fluid_);
+  contact_.start(fluid_, solid_);
+  timer_.lap(Phase::communication);
+
+  steps_.next = next_step_length(squared_speed_now);
+  sweep_what_needs_no_ghosts();
+  if (surface_tension_.is_enabled()) surface_tension_.work();
+  timer_.lap(Phase::surface_tension);
+  contact_.work(time_, steps_.next, steps_.kick());
+  timer_.lap(Phase::contact);
+  finish_exchange(distribution_.fluid_halo(), fluid_ghosted_);
+  finish_exchange(distribution_.solid_halo(), solid_ghosted_);
+  timer_.lap(Phase::communication);
+  sweep_the_rest();
+
+  if (surface_tension_.is_enabled()) surface_tension_.finish(fluid_);
+  contact_.finish(fluid_, solid_);
+  timer_.lap(Phase::communication);
+  add_gravity();
+}
+
+void Simulation::move() {
+  const double limit = case_.safety.speed_limit;
+  const MotionMaxima fluid = kick_and_drift(fluid_, steps_, limit);
+  const MotionMaxima solid = kick_and_drift(solid_, steps_, limit);
+  time_ += steps_.next;
+  ++step_;
+  steps_.previous = steps_.next;
+  post_maxima(fluid, solid);
+  timer_.lap(Phase::update);
+}
+
+void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid) {
+  std::array<double, maxima_count> mine{};
+  mine[squared_speed] = std::max(fluid.squared_speed, solid.squared_speed);
+  mine[squared_displacement] = std::max(fluid.squared_displacement, solid.squared_displacement);
+  mine[squared_detection_displacement] = fluid.squared_detection_displacement;
+  const bool too_deep = contact_.owner() == communicator_.rank() && contact_.overlap_is_too_deep();
+  mine[failure] = fluid.beyond_limit || solid.beyond_limit || too_deep ? 1.0 : 0.0;
+  maxima_.start(mine);
+}
+
+void Simulation::redistribute_if_due(double largest_squared_displacement) {
+  const double allowed = parameters_.range.largest_displacement();
+  const std::int64_t interval = case_.parallel.repartition_interval;
+  const bool forced = interval > 0 && step_ % interval == 0;
+  if (is_distributed_ && !forced && largest_squared_displacement <= allowed * allowed) return;
+  distribution_.redistribute(fluid_, solid_, forced);
+  check_nothing_is_lost();
+  corrected_density_.resize(fluid_.size() + column_padding);
+  fluid_sweep_.resize(fluid_);
+  contact_.regather(fluid_, solid_, parameters_.range);
+  if (surface_tension_.is_enabled() && !detection_is_due_) surface_tension_.regather(fluid_);
+  is_distributed_ = true;
+  ++redistributions_;
+  timer_.lap(Phase::redistribution);
+}
+
+void Simulation::correct_density() {
+  start_exchange(distribution_.fluid_halo(), correction_ghosted_);
+  finish_exchange(distribution_.fluid_halo(), correction_ghosted_);
+  timer_.lap(Phase::communication);
+  for (const SlicedNeighbours* list : {&distribution_.inner_fluid(), &distribution_.border_fluid()})
+    moving_least_squares_densities(fluid_, *list, parameters_.kernel, case_.resolution.spacing, corrected_density_);
+  // The staggered density is shifted by the same increment, so that the filter is not undone by the next step.
+  const double reference = case_.fluid.density, sound_speed = case_.fluid.sound_speed;
+  fluid_.for_each_owned([&](std::size_t row) {
+    const double before = fluid_.density[row], after = corrected_density_[row];
+    fluid_.staggered_density[row] += after - before;
+    fluid_.density[row] = after;
+    fluid_.correction_energy[row] +=
+        fluid_.mass[row] * (compressive_energy_per_mass(after, reference, sound_speed) -
+                            compressive_energy_per_mass(before, reference, sound_speed));
+  });
+  timer_.lap(Phase::fluid_sweep);
+}
+
+double Simulation::next_step_length(double squared_speed_now) const {
+  if (case_.time.step > 0) return case_.time.step;
+  return stable_time_step(parameters_.time_step, std::sqrt(squared_speed_now));
+}
+
+void Simulation::sweep_what_needs_no_ghosts() {
+  fluid_sweep_.apply(fluid_, distribution_.inner_fluid());
+  timer_.lap(Phase::fluid_sweep);
+  solid_sweep_.apply(solid_, distribution_.solid(), HypoelasticSweep::Blocks::without_ghosts);
+  timer_.lap(Phase::solid_sweep);
+}
+
+void Simulation::sweep_the_rest() {
+  for (const RowRange& range : fluid_.ghosts)
+    for (std::int32_t k = range.begin; k < range.end; ++k) {
+      const auto row = static_cast<std::size_t>(k);
+      fluid_.pressure[row] = equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
+    }
+  fluid_sweep_.pack(fluid_, fluid_.ghosts);
+  fluid_sweep_.apply(fluid_, distribution_.border_fluid());
+  timer_.lap(Phase::fluid_sweep);
+  solid_sweep_.update_stress(solid_, solid_.ghosts);
+  solid_sweep_.apply(solid_, distribution_.solid(), HypoelasticSweep::Blocks::with_ghosts);
+  timer_.lap(Phase::solid_sweep);
+}
+
+void Simulation::add_gravity() {
+  const Vector g{case_.gravity.x, case_.gravity.y};
+  if (g == Vector{}) return;
+  const auto add = [&](auto& set) {
+    set.for_each_owned([&](std::size_t row) {
+      set.acceleration.x[row] += g.x;
+      set.acceleration.y[row] += g.y;
+    });
+  };
+  add(fluid_);
+  add(solid_);
+}
+
+}  // namespace sphdrop

@@ -1,0 +1,116 @@
+#pragma once
+// The state of a run and its step (Sec. 2.6).
+
+#include <stdexcept>
+#include <vector>
+
+#include "config/case.hpp"
+#include "decomposition/communicator.hpp"
+#include "fluid/fluid_sweep.hpp"
+#include "particles/fluid_particles.hpp"
+#include "particles/solid_particles.hpp"
+#include "setup/initial_particles.hpp"
+#include "simulation/contact_step.hpp"
+#include "simulation/distribution.hpp"
+#include "simulation/phase_timer.hpp"
+#include "simulation/surface_tension_step.hpp"
+#include "solid/hypoelastic/hypoelastic_sweep.hpp"
+#include "time_integration/leapfrog.hpp"
+#include "time_integration/time_step.hpp"
+
+namespace sphdrop {
+
+/// A state that must not be computed on: a NaN, a particle too fast, lost or too deep in the solid. Thrown on all ranks at
+/// the same step with the same text, which names the particle.
+struct SafetyError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Constants of the formulas that follow from a case.
+struct DerivedParameters {
+  explicit DerivedParameters(const Case& input);
+
+  double smoothing_length;  ///< h, m
+  CubicSpline kernel;
+  InteractionRange range;
+  FluidPairParameters fluid_pair;
+  HypoelasticParameters solid;
+  TimeStepLimits time_step;
+};
+
+/// A run, step by step: evaluate() brings everything to the present instant, move() goes on to the next. All calls are
+/// collective. Between the two the state at time() may be looked at.
+class Simulation {
+ public:
+  /// `state` is the whole initial state, the same on every rank, which each keeps its part of.
+  Simulation(const Communicator& communicator, const Case& input, const InitialFluid& initial_fluid,
+             const InitialSolid& initial_solid);
+
+  /// Everything that belongs to the present instant: predicted values, stresses, forces, the step to come.
+  /// Throws SafetyError.
+  void evaluate();
+  /// Kick and drift to the next instant (Eqs 36-39).
+  void move();
+
+  double time() const { return time_; }
+  std::int64_t step() const { return step_; }
+  /// The step to come, s; good after evaluate().
+  double time_step() const { return steps_.next; }
+
+  const Case& input() const { return case_; }
+  const Communicator& communicator() const { return communicator_; }
+  const DerivedParameters& parameters() const { return parameters_; }
+  const FluidParticles& fluid() const { return fluid_; }
+  const SolidParticles& solid() const { return solid_; }
+  const SurfaceTensionStep& surface_tension() const { return surface_tension_; }
+  const ContactStep& contact() const { return contact_; }
+  const Distribution& distribution() const { return distribution_; }
+  /// Global ids of the particles whose mean displacement is the deflection.
+  const std::vector<std::int64_t>& deflection_probe() const { return deflection_probe_; }
+  std::int64_t fluid_total() const { return fluid_total_; }
+  std::int64_t solid_total() const { return solid_total_; }
+  std::int64_t redistributions() const { return redistributions_; }
+  std::int64_t detections() const { return detections_; }
+  PhaseTimer& timer() { return timer_; }
+
+ private:
+  void take_initial_state(const InitialFluid& fluid, const InitialSolid& solid);
+  void post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid);
+  void check_safety(double failure);
+  [[noreturn]] void stop_with_diagnosis();
+  void check_nothing_is_lost();
+  void redistribute_if_due(double squared_displacement);
+  void correct_density();
+  double next_step_length(double squared_speed) const;
+  void sweep_what_needs_no_ghosts();
+  void sweep_the_rest();
+  void add_gravity();
+
+  const Communicator& communicator_;
+  Case case_;
+  DerivedParameters parameters_;
+  FluidParticles fluid_;
+  SolidParticles solid_;
+  std::int64_t fluid_total_ = 0, solid_total_ = 0;
+  std::vector<std::int64_t> deflection_probe_;
+  Vector box_low_, box_high_;  // a particle beyond is lost
+
+  Distribution distribution_;
+  FluidSweep fluid_sweep_;
+  HypoelasticSweep solid_sweep_;
+  SurfaceTensionStep surface_tension_;
+  ContactStep contact_;
+  PendingMaximum maxima_;
+  std::vector<Column<double>*> fluid_ghosted_, solid_ghosted_, correction_ghosted_;
+  std::vector<double> corrected_density_;
+
+  double time_ = 0;
+  std::int64_t step_ = 0;
+  StepLengths steps_;
+  bool is_distributed_ = false;
+  bool detection_is_due_ = true;
+  std::int64_t redistributions_ = 0, detections_ = 0;
+  PhaseTimer timer_;
+};
+
+}  // namespace sphdrop

@@ -1,0 +1,211 @@
+#include "simulation/surface_tension_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "sph/cell_grid.hpp"
+#include "surface_tension/surface_force.hpp"
+#include "surface_tension/surface_points.hpp"
+
+namespace sphdrop {
+
+SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const Case& input, const CubicSpline& kernel)
+    : communicator_(communicator),
+      kernel_(kernel),
+      form_(input.surface_tension.coefficient > 0 ? input.surface_tension.form : SurfaceTensionForm::none),
+      coefficient_(input.surface_tension.coefficient),
+      spacing_(input.resolution.spacing),
+      support_(2.0 * input.resolution.smoothing_ratio * input.resolution.spacing),
+      detection_displacement_(input.surface_tension.detection_displacement * input.resolution.spacing),
+      polynomial_points_(static_cast<int>(input.surface_tension.polynomial_points)),
+      finder_(support_) {}
+
+void SurfaceTensionStep::detect(FluidParticles& fluid, Distribution& distribution) {
+  fluid.for_each_owned([&](std::size_t row) { fluid.detection_position.set(row, fluid.position.at(row)); });
+  find_arcs(fluid, distribution);
+  regather(fluid);
+}
+
+void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribution) {
+  // Owned rows first, then what the wide halo brings.
+  ExchangePlan& halo = distribution.wide_halo();
+  const std::size_t owned = fluid.owned_count();
+  const std::size_t all = owned + halo.received_row_count();
+  std::vector<double> x(all), y(all);
+  std::vector<std::int64_t> id(all);
+  std::copy_n(fluid.detection_position.x.data(), owned, x.begin());
+  std::copy_n(fluid.detection_position.y.data(), owned, y.begin());
+  std::copy_n(fluid.id.data(), owned, id.begin());
+  halo.start(std::array<const void*, 3>{x.data(), y.data(), id.data()});
+  halo.finish(std::array<void*, 3>{x.data(), y.data(), id.data()});
+
+  std::vector<Arc> arcs;
+  std::vector<Vector> near_positions;
+  std::vector<std::int64_t> near_ids;
+  const CellGrid kernel_grid(x, y, support_);
+  const CellGrid wide_grid(x, y, 2.0 * support_);
+  for (std::size_t i = 0; i < owned; ++i) {
+    const Vector here{x[i], y[i]};
+    near_positions.clear();
+    kernel_grid.for_each_near(here, [&](std::int32_t j) {
+      const auto k = static_cast<std::size_t>(j);
+      if (k != i) near_positions.push_back({x[k], y[k]});
+    });
+    // Most particles are inside: their nearest neighbours already cover their circle.
+    if (finder_.is_covered_by(here, near_positions)) continue;
+    near_positions.clear();
+    near_ids.clear();
+    wide_grid.for_each_near(here, [&](std::int32_t j) {
+      const auto k = static_cast<std::size_t>(j);
+      if (k == i) return;
+      near_positions.push_back({x[k], y[k]});
+      near_ids.push_back(id[k]);
+    });
+    finder_.find(id[i], here, near_ids, near_positions, arcs);
+  }
+
+  struct LocatedArc {
+    Arc arc;
+    Vector centre;
+  };
+  std::vector<LocatedArc> mine;
+  mine.reserve(arcs.size());
+  std::size_t row = 0;
+  for (const Arc& arc : arcs) {
+    while (id[row] != arc.particle) ++row;  // arcs were appended in the order of rows
+    mine.push_back({arc, {x[row], y[row]}});
+  }
+  std::vector<LocatedArc> everyone = communicator_.all_gather(std::span<const LocatedArc>(mine));
+  std::sort(everyone.begin(), everyone.end(), [](const LocatedArc& a, const LocatedArc& b) {
+    return std::pair(a.arc.particle, a.arc.previous) < std::pair(b.arc.particle, b.arc.previous);
+  });
+  arcs_.clear();
+  arc_centres_.clear();
+  for (const LocatedArc& located : everyone) {
+    arcs_.push_back(located.arc);
+    arc_centres_.push_back(located.centre);
+  }
+}
+
+void SurfaceTensionStep::regather(const FluidParticles& fluid) {
+  // A surface point is d/2 from its particle and acts as far as 2h; both ends may have moved since detection by a little
+  // more than its displacement, as a step is finished before it is noticed.
+  const double reach = support_ + 0.5 * spacing_ + 3.0 * detection_displacement_ + 0.02 * spacing_;
+  std::vector<double> arc_x(arc_centres_.size()), arc_y(arc_centres_.size());
+  for (std::size_t k = 0; k < arc_centres_.size(); ++k) {
+    arc_x[k] = arc_centres_[k].x;
+    arc_y[k] = arc_centres_[k].y;
+  }
+  const CellGrid grid(arc_x, arc_y, reach);
+  std::vector<std::int64_t> ids;
+  band_rows_.clear();
+  fluid.for_each_owned([&](std::size_t row) {
+    const Vector p = fluid.detection_position.at(row);
+    bool near = false;
+    grid.for_each_near(p, [&](std::int32_t k) {
+      near = near || squared_length(arc_centres_[static_cast<std::size_t>(k)] - p) <= reach * reach;
+    });
+    if (!near) return;
+    band_rows_.push_back(static_cast<std::int32_t>(row));
+    ids.push_back(fluid.id[row]);
+  });
+  const int owner = rank_with_most(communicator_, static_cast<std::int64_t>(band_rows_.size()));
+  gather_ = InterfaceGather(communicator_, ids, band_rows_, owner, tags::surface);
+  returned_x_.assign(fluid.size(), 0.0);
+  returned_y_.assign(fluid.size(), 0.0);
+
+  const std::size_t gathered = gather_.ids().size();
+  x_.resize(gathered);
+  y_.resize(gathered);
+  mass_.resize(gathered);
+  acceleration_x_.resize(gathered);
+  acceleration_y_.resize(gathered);
+  gather_.start_gather(std::array<const void*, 3>{fluid.detection_position.x.data(), fluid.detection_position.y.data(),
+                                                  fluid.mass.data()});
+  gather_.finish_gather(std::array<void*, 3>{x_.data(), y_.data(), mass_.data()});
+  curves_ = {};
+  if (owner != communicator_.rank()) return;
+
+  curves_ = connect_arcs(arcs_, arc_centres_, support_);
+  node_particle_.resize(curves_.nodes.size());
+  node_positions_.resize(curves_.nodes.size());
+  points_.resize(curves_.nodes.size());
+  forces_.resize(curves_.nodes.size());
+  for (std::size_t k = 0; k < curves_.nodes.size(); ++k) {
+    const std::int32_t index = gather_.index_of(curves_.nodes[k].particle);
+    assert(index >= 0);
+    node_particle_[k] = index;
+    node_positions_[k] = {x_[static_cast<std::size_t>(index)], y_[static_cast<std::size_t>(index)]};
+  }
+  sharing_.rebuild(node_positions_, x_, y_, reach);
+}
+
+void SurfaceTensionStep::start(const FluidParticles& fluid) {
+  gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
+}
+
+void SurfaceTensionStep::work() {
+  gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
+  if (owner() == communicator_.rank()) {
+    for (std::size_t k = 0; k < node_particle_.size(); ++k) {
+      const auto index = static_cast<std::size_t>(node_particle_[k]);
+      node_positions_[k] = {x_[index], y_[index]};
+    }
+    surface_points(curves_, node_positions_, spacing_, points_);
+    if (form_ == SurfaceTensionForm::conservative)
+      conservative_forces(curves_, points_, coefficient_, forces_);
+    else
+      curvature_forces(curves_, points_, coefficient_, polynomial_points_, forces_);
+    std::fill(acceleration_x_.begin(), acceleration_x_.end(), 0.0);
+    std::fill(acceleration_y_.begin(), acceleration_y_.end(), 0.0);
+    lost_points_ = sharing_.share(points_, forces_, x_, y_, mass_, kernel_, acceleration_x_, acceleration_y_);
+  }
+  gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
+}
+
+void SurfaceTensionStep::finish(FluidParticles& fluid) {
+  gather_.finish_scatter(std::array<void*, 2>{returned_x_.data(), returned_y_.data()});
+  for (const std::int32_t k : band_rows_) {
+    const auto row = static_cast<std::size_t>(k);
+    fluid.acceleration.x[row] += returned_x_[row];
+    fluid.acceleration.y[row] += returned_y_[row];
+  }
+}
+
+SurfaceReport SurfaceTensionStep::report() const {
+  SurfaceReport report;
+  report.length = total_length(curves_, points_);
+  report.node_count = static_cast<double>(curves_.nodes.size());
+  report.unmatched_arcs = static_cast<double>(curves_.unmatched_arcs);
+  report.lost_points = static_cast<double>(lost_points_);
+
+  std::vector<double> curvature(points_.size());
+  curvatures(curves_, points_, polynomial_points_, curvature);
+  double weight = 0, first = 0, second = 0, magnitudes = 0;
+  Vector sum;
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    const SurfaceCurves::Range range = curves_.curve(c);
+    if (!range.carries_force()) continue;
+    report.curve_count += 1.0;
+    for (std::size_t k = range.first; k < range.last; ++k) {
+      const double arc_length = 0.5 * (length(points_[range.next(k)] - points_[k]) +
+                                       length(points_[k] - points_[range.previous(k)]));
+      weight += arc_length;
+      first += arc_length * curvature[k];
+      second += arc_length * curvature[k] * curvature[k];
+      sum += forces_[k];
+      magnitudes += length(forces_[k]);
+    }
+  }
+  if (weight > 0) {
+    report.mean_curvature = first / weight;
+    report.curvature_scatter =
+        std::sqrt(std::max(0.0, second / weight - report.mean_curvature * report.mean_curvature));
+  }
+  if (magnitudes > 0) report.net_force = length(sum) / magnitudes;
+  return report;
+}
+
+}  // namespace sphdrop

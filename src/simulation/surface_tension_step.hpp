@@ -1,0 +1,82 @@
+#pragma once
+// Surface tension on a distributed drop (Sec. 2.5): detection on every rank, forces at the interface's owner.
+
+#include <vector>
+
+#include "config/case.hpp"
+#include "decomposition/interface_gather.hpp"
+#include "particles/fluid_particles.hpp"
+#include "simulation/distribution.hpp"
+#include "surface_tension/boundary_detection.hpp"
+#include "surface_tension/force_sharing.hpp"
+#include "surface_tension/surface_curve.hpp"
+
+namespace sphdrop {
+
+/// The surface as the owner sees it at the last evaluated instant; the same on all ranks only after a broadcast.
+struct SurfaceReport {
+  double length = 0;                     ///< m
+  double mean_curvature = 0;             ///< over the nodes, weighted by arc length, 1/m
+  double curvature_scatter = 0;          ///< standard deviation, same weights, 1/m
+  double node_count = 0;
+  double curve_count = 0;                ///< of three nodes or more
+  double net_force = 0;                  ///< |sum of the tension's forces| over the sum of their magnitudes
+  double lost_points = 0;                ///< surface points without a particle to act on
+  double unmatched_arcs = 0;
+};
+
+/// In a step: start(), work(), finish(). Connectivity is found by detect() and kept; it is a function of the particles'
+/// positions at detection alone, which travel with them, so redistributing or restarting does not change it.
+class SurfaceTensionStep {
+ public:
+  SurfaceTensionStep(const Communicator& communicator, const Case& input, const CubicSpline& kernel);
+
+  bool is_enabled() const { return form_ != SurfaceTensionForm::none; }
+  /// The squared displacement from detection_position at which detect() is due, m2.
+  double largest_squared_displacement() const { return detection_displacement_ * detection_displacement_; }
+
+  /// Collective. Takes the present positions as those of detection, and finds the surface's arcs in them.
+  void detect(FluidParticles& fluid, Distribution& distribution);
+  /// Collective. Brings the band along the surface to its owner; after detect() and after every redistribution.
+  void regather(const FluidParticles& fluid);
+
+  /// Sends the band's positions to the owner.
+  void start(const FluidParticles& fluid);
+  /// At the owner: surface points, forces and their shares; starts sending them back.
+  void work();
+  /// Adds the accelerations to the band's rows.
+  void finish(FluidParticles& fluid);
+
+  int owner() const { return gather_.owner(); }
+  /// At the owner, of the instant last worked on.
+  SurfaceReport report() const;
+
+ private:
+  void find_arcs(FluidParticles& fluid, Distribution& distribution);
+
+  const Communicator& communicator_;
+  CubicSpline kernel_;
+  SurfaceTensionForm form_;
+  double coefficient_, spacing_, support_, detection_displacement_;
+  int polynomial_points_;
+  ArcFinder finder_;
+
+  // On every rank: the arcs of the last detection and where their particles were.
+  std::vector<Arc> arcs_;
+  std::vector<Vector> arc_centres_;
+
+  // This rank's part of the band, and what comes back for it.
+  InterfaceGather gather_;
+  std::vector<std::int32_t> band_rows_;
+  std::vector<double> returned_x_, returned_y_;
+
+  // At the owner, by gathered particle or by node.
+  SurfaceCurves curves_;
+  ForceSharing sharing_;
+  std::vector<std::int32_t> node_particle_;
+  std::vector<double> x_, y_, mass_, acceleration_x_, acceleration_y_;
+  std::vector<Vector> node_positions_, points_, forces_;
+  std::size_t lost_points_ = 0;
+};
+
+}  // namespace sphdrop

@@ -1,0 +1,78 @@
+#pragma once
+// Points sorted into square cells, to find those near a place.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "particles/vector.hpp"
+
+namespace sphdrop {
+
+/// A snapshot of points in cells at least `reach` wide, so that all points within `reach` of a place lie in the nine
+/// cells about it.
+class CellGrid {
+ public:
+  /// x, y: shape [n], m.
+  CellGrid(std::span<const double> x, std::span<const double> y, double reach) {
+    if (x.empty()) return;
+    const auto [x_low, x_high] = std::minmax_element(x.begin(), x.end());
+    const auto [y_low, y_high] = std::minmax_element(y.begin(), y.end());
+    origin_ = {*x_low, *y_low};
+    const double width = *x_high - *x_low, height = *y_high - *y_low;
+    // A few strays far away must not cost memory: cells grow until there are at most a few a point.
+    const double most_cells = 4.0 * static_cast<double>(x.size()) + 1024.0;
+    double size = reach;
+    while ((std::floor(width / size) + 1.0) * (std::floor(height / size) + 1.0) > most_cells) size *= 1.5;
+    inverse_size_ = 1.0 / size;
+    columns_ = static_cast<std::int64_t>(width * inverse_size_) + 1;
+    rows_ = static_cast<std::int64_t>(height * inverse_size_) + 1;
+    start_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+    std::vector<std::int32_t> cell(x.size());
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      cell[k] = static_cast<std::int32_t>(cell_of({x[k], y[k]}));
+      ++start_[static_cast<std::size_t>(cell[k]) + 1];
+    }
+    for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
+    points_.resize(x.size());
+    std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      points_[static_cast<std::size_t>(next[static_cast<std::size_t>(cell[k])]++)] = static_cast<std::int32_t>(k);
+  }
+
+  /// Calls f(index) for every point in the nine cells about `place`: a superset of those within reach.
+  template <class F>
+  void for_each_near(Vector place, F&& f) const {
+    if (points_.empty()) return;
+    const double cx = std::floor((place.x - origin_.x) * inverse_size_);
+    const double cy = std::floor((place.y - origin_.y) * inverse_size_);
+    // Compared as doubles: a place may be too far away for an integer.
+    if (!(cx >= -1.0 && cy >= -1.0 && cx <= static_cast<double>(columns_) && cy <= static_cast<double>(rows_))) return;
+    const auto column = static_cast<std::int64_t>(cx), row = static_cast<std::int64_t>(cy);
+    const std::int64_t first = std::max<std::int64_t>(column - 1, 0), last = std::min(column + 1, columns_ - 1);
+    if (first > last) return;
+    for (std::int64_t r = std::max<std::int64_t>(row - 1, 0); r <= std::min(row + 1, rows_ - 1); ++r) {
+      const std::int32_t begin = start_[static_cast<std::size_t>(r * columns_ + first)];
+      const std::int32_t end = start_[static_cast<std::size_t>(r * columns_ + last) + 1];
+      for (std::int32_t k = begin; k < end; ++k) f(points_[static_cast<std::size_t>(k)]);
+    }
+  }
+
+ private:
+  std::int64_t cell_of(Vector p) const {
+    const auto column = std::min(static_cast<std::int64_t>((p.x - origin_.x) * inverse_size_), columns_ - 1);
+    const auto row = std::min(static_cast<std::int64_t>((p.y - origin_.y) * inverse_size_), rows_ - 1);
+    return row * columns_ + column;
+  }
+
+  Vector origin_;
+  double inverse_size_ = 1.0;
+  std::int64_t columns_ = 0, rows_ = 0;
+  std::vector<std::int32_t> start_;   // by cell, row after row
+  std::vector<std::int32_t> points_;  // sorted by cell
+};
+
+}  // namespace sphdrop

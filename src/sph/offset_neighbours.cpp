@@ -1,0 +1,51 @@
+#include "sph/offset_neighbours.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "particles/pack.hpp"
+#include "sph/cell_grid.hpp"
+
+namespace sphdrop {
+
+OffsetNeighbours OffsetNeighbours::build(const ParticleSet& particles, const Column<double>& x, const Column<double>& y,
+                                         double reach) {
+  OffsetNeighbours list;
+  const std::size_t size = particles.size();
+  if (size == 0) return list;
+  assert(std::is_sorted(particles.id.begin(), particles.id.end()));
+  const CellGrid grid({x.data(), size}, {y.data(), size}, reach);
+  const double squared_reach = reach * reach;
+  std::vector<char> is_owned(size, 0);
+  particles.for_each_owned([&](std::size_t row) { is_owned[row] = 1; });
+
+  std::vector<std::int32_t> found;
+  for (std::size_t first = 0; first < size; first += block_size) {
+    Block block;
+    block.first_row = static_cast<std::int32_t>(first);
+    block.first_offset = static_cast<std::int32_t>(list.offsets.size());
+    found.clear();
+    bool any_owned = false;
+    for (std::size_t i = first; i < std::min(first + block_size, size); ++i) {
+      if (!is_owned[i]) continue;
+      any_owned = true;
+      const Vector here{x[i], y[i]};
+      grid.for_each_near(here, [&](std::int32_t j) {
+        const auto row = static_cast<std::size_t>(j);
+        if (row == i || squared_length(Vector{x[row], y[row]} - here) >= squared_reach) return;
+        ++list.pairs;
+        if (!is_owned[row]) block.needs_ghosts = true;
+        found.push_back(j - static_cast<std::int32_t>(i));
+      });
+    }
+    if (!any_owned) continue;
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    block.offsets = static_cast<std::int32_t>(found.size());
+    list.offsets.insert(list.offsets.end(), found.begin(), found.end());
+    list.blocks.push_back(block);
+  }
+  return list;
+}
+
+}  // namespace sphdrop

@@ -1,0 +1,28 @@
+#include "surface_tension/surface_points.hpp"
+
+#include <cassert>
+#include <cmath>
+
+namespace sphdrop {
+
+void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_positions, double spacing,
+                    std::span<Vector> points) {
+  assert(node_positions.size() == curves.nodes.size() && points.size() == curves.nodes.size());
+  const double offset = 0.5 * spacing;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const SurfaceCurves::Range curve = curves.curve(c);
+    Vector previous = node_positions[curve.last - 1];
+    Vector position = node_positions[curve.first];
+    for (std::size_t k = curve.first; k < curve.last; ++k) {
+      const Vector next = node_positions[curve.next(k)];
+      const Vector outward = right_normal(next - previous);
+      const double squared_chord = squared_length(outward);
+      const Vector normal = squared_chord > 0.0 ? outward / std::sqrt(squared_chord) : curves.nodes[k].arc_direction;
+      points[k] = position + offset * normal;
+      previous = position;
+      position = next;
+    }
+  }
+}
+
+}  // namespace sphdrop

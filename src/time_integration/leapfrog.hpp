@@ -1,0 +1,41 @@
+#pragma once
+// Kick-drift leap-frog with predicted rates (Eqs 36-39; Liu & Liu 2003).
+//
+// Between steps density, velocity and deviatoric stress belong to t - dt/2 ("staggered"), position to t. A step predicts
+// them at t, evaluates the rates there, kicks the staggered values to t + dt/2 and drifts position to t + dt. Before the
+// first step the staggered values are those at t = 0: with previous step 0, predict() copies and kick() takes half a step.
+
+#include <span>
+
+#include "particles/fluid_particles.hpp"
+#include "particles/solid_particles.hpp"
+
+namespace sphdrop {
+
+/// Lengths of the step before and of the step to take, s.
+struct StepLengths {
+  double previous = 0;
+  double next = 0;
+  /// From t - previous/2 to t + next/2.
+  double kick() const { return 0.5 * (previous + next); }
+};
+
+/// What a step does to the fastest and the farthest-moved particle; maxima over owned rows, squared: m2/s2, m2.
+struct MotionMaxima {
+  double squared_speed = 0;
+  double squared_displacement = 0;            ///< from list_position
+  double squared_detection_displacement = 0;  ///< from detection_position (liquid)
+  /// A particle is faster than allowed, or its velocity is not a number.
+  bool beyond_limit = false;
+};
+
+/// Velocity and density (and deviatoric stress) of the owned rows at t from the staggered ones.
+void predict(FluidParticles& fluid, double previous_step);
+void predict(SolidParticles& solid, double previous_step);
+
+/// Velocity, density (and deviatoric stress) from t - previous/2 to t + next/2, position from t to t + next (36-39); held
+/// particles (mobility 0) stay. `speed_limit` in m/s.
+MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit);
+MotionMaxima kick_and_drift(SolidParticles& solid, StepLengths steps, double speed_limit);
+
+}  // namespace sphdrop

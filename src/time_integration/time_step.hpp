@@ -1,0 +1,42 @@
+#pragma once
+// The stable time step (Eqs 40-42).
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace sphdrop {
+
+struct TimeStepLimits {
+  double sound_cfl = 0.1;        ///< factor of (40)
+  double capillary_cfl = 0.1;    ///< factor of (41)
+  double viscous_cfl = 0.1;      ///< factor of (42)
+  double smoothing_length = 0;   ///< h, m
+  double sound_speed = 0;        ///< c = max(c_f, c_s), m/s
+  double density = 0;            ///< rho of the liquid, kg/m3
+  double surface_tension = 0;    ///< sigma, N/m; 0 lifts (41)
+  double viscosity = 0;          ///< mu, Pa s; 0 lifts (42)
+};
+
+/// 0.1 h/(c + u_max), s (40).
+inline double acoustic_time_step(const TimeStepLimits& l, double largest_speed) {
+  return l.sound_cfl * l.smoothing_length / (l.sound_speed + largest_speed);
+}
+/// 0.1 sqrt(rho h^3/(2 pi sigma)), s (41).
+inline double capillary_time_step(const TimeStepLimits& l) {
+  if (l.surface_tension <= 0) return std::numeric_limits<double>::infinity();
+  const double h = l.smoothing_length;
+  return l.capillary_cfl * std::sqrt(l.density * (h * h * h) / (2.0 * std::numbers::pi * l.surface_tension));
+}
+/// 0.1 rho h^2/mu, s (42).
+inline double viscous_time_step(const TimeStepLimits& l) {
+  if (l.viscosity <= 0) return std::numeric_limits<double>::infinity();
+  return l.viscous_cfl * l.density * (l.smoothing_length * l.smoothing_length) / l.viscosity;
+}
+/// The smallest of the three, s.
+inline double stable_time_step(const TimeStepLimits& l, double largest_speed) {
+  return std::min({acoustic_time_step(l, largest_speed), capillary_time_step(l), viscous_time_step(l)});
+}
+
+}  // namespace sphdrop

@@ -1,0 +1,190 @@
+#include "surface_tension/force_sharing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "drops.hpp"
+#include "surface_tension/surface_force.hpp"
+#include "surface_tension/surface_points.hpp"
+
+namespace sphdrop {
+namespace {
+
+using namespace test;
+
+constexpr double reach = 2.0 * smoothing_length + 0.5 * spacing + 0.1 * spacing;
+
+struct Drop {
+  SurfaceCurves curves;
+  Positions nodes, points, forces;
+  std::vector<double> x, y, masses, acceleration_x, acceleration_y;
+
+  explicit Drop(const Positions& positions) : curves(curves_of(positions)) {
+    nodes = node_positions(curves, positions);
+    points.resize(nodes.size());
+    forces.resize(nodes.size());
+    surface_points(curves, nodes, spacing, points);
+    conservative_forces(curves, points, 0.072, forces);
+    for (const Vector position : positions) {
+      x.push_back(position.x);
+      y.push_back(position.y);
+      masses.push_back(6e-7 * (1.0 + 0.01 * static_cast<double>(x.size() % 7)));
+    }
+    acceleration_x.assign(x.size(), 0.0);
+    acceleration_y.assign(x.size(), 0.0);
+  }
+
+  std::size_t share(ForceSharing& sharing) {
+    return sharing.share(points, forces, x, y, masses, CubicSpline(smoothing_length), acceleration_x, acceleration_y);
+  }
+};
+
+/// Eqs 32 and 33 over all particles, in scalar arithmetic and the order promised.
+void share_over_all(Drop& drop) {
+  const CubicSpline kernel(smoothing_length);
+  std::vector<Vector> shares(drop.x.size());
+  for (std::size_t k = 0; k < drop.points.size(); ++k) {
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < drop.x.size(); ++i) {
+      const Vector separation = drop.points[k] - Vector{drop.x[i], drop.y[i]};
+      weights.push_back(kernel.value(length(separation)));
+      sum += weights.back();
+    }
+    if (sum == 0.0) continue;
+    for (std::size_t i = 0; i < drop.x.size(); ++i) {
+      shares[i].x += drop.forces[k].x / sum * weights[i];
+      shares[i].y += drop.forces[k].y / sum * weights[i];
+    }
+  }
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    drop.acceleration_x[i] += shares[i].x * (1.0 / drop.masses[i]);
+    drop.acceleration_y[i] += shares[i].y * (1.0 / drop.masses[i]);
+  }
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+Positions jittered_disc(double radius, unsigned seed) {
+  Positions positions = lattice_disc(radius);
+  jitter(positions, 0.2 * spacing, seed);
+  return positions;
+}
+
+TEST(ForceSharing, HasTheBitsOfTheScalarSumOverAllParticles) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    Drop drop(together(jittered_disc(4.0 + seed, seed), moved(jittered_disc(3.0, seed), {1.0, -2.0})));
+    for (std::size_t i = 0; i < drop.x.size(); ++i) drop.acceleration_y[i] = -9.81;  // added to, not overwritten
+    Drop expected = drop;
+    share_over_all(expected);
+    ForceSharing sharing;
+    sharing.rebuild(drop.nodes, drop.x, drop.y, reach);
+    EXPECT_EQ(drop.share(sharing), 0U);
+    EXPECT_TRUE(same_bits(drop.acceleration_x, expected.acceleration_x)) << seed;
+    EXPECT_TRUE(same_bits(drop.acceleration_y, expected.acceleration_y)) << seed;
+    EXPECT_LT(sharing.particles().size(), drop.x.size());
+  }
+}
+
+TEST(ForceSharing, GivesTheWholeForceToTheParticles) {
+  Drop drop(jittered_disc(15.0, 4));
+  for (std::size_t k = 0; k < drop.forces.size(); ++k) drop.forces[k] += {1e-3, 2e-3};  // so that the sum is not zero
+  ForceSharing sharing;
+  sharing.rebuild(drop.nodes, drop.x, drop.y, reach);
+  drop.share(sharing);
+  Vector given, received;
+  double size = 0.0;
+  for (const Vector force : drop.forces) {
+    given += force;
+    size += length(force);
+  }
+  for (std::size_t i = 0; i < drop.x.size(); ++i)
+    received += drop.masses[i] * Vector{drop.acceleration_x[i], drop.acceleration_y[i]};
+  EXPECT_GT(length(given), 0.01 * size);
+  EXPECT_LT(length(given - received), 1e-15 * size);
+}
+
+TEST(ForceSharing, HoldsUntilParticlesHaveMovedThroughTheMargin) {
+  Positions positions = jittered_disc(10.0, 6);
+  Drop before(positions);
+  ForceSharing sharing;
+  sharing.rebuild(before.nodes, before.x, before.y, reach);
+
+  jitter(positions, 0.03 * spacing, 60);  // twice this is within the margin
+  Drop after = before;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    after.x[i] = positions[i].x;
+    after.y[i] = positions[i].y;
+  }
+  after.nodes = node_positions(after.curves, positions);
+  surface_points(after.curves, after.nodes, spacing, after.points);
+  Drop expected = after;
+  after.share(sharing);
+  share_over_all(expected);
+  EXPECT_TRUE(same_bits(after.acceleration_x, expected.acceleration_x));
+  EXPECT_FALSE(same_bits(after.acceleration_x, before.acceleration_x));
+}
+
+TEST(ForceSharing, DoesNotDependOnEarlierUse) {
+  ForceSharing used;
+  Drop large(jittered_disc(12.0, 1));
+  used.rebuild(large.nodes, large.x, large.y, reach);
+  large.share(used);
+  Drop drop(jittered_disc(5.0, 2));
+  Drop expected = drop;
+  used.rebuild(drop.nodes, drop.x, drop.y, reach);
+  drop.share(used);
+  share_over_all(expected);
+  EXPECT_TRUE(same_bits(drop.acceleration_x, expected.acceleration_x));
+}
+
+TEST(ForceSharing, CountsPointsWithoutParticles) {
+  Drop drop(jittered_disc(6.0, 3));
+  for (std::size_t k = 0; k < drop.points.size(); ++k)
+    if (k != 5) drop.forces[k] = {};
+  drop.points[5] = {1.0, 1.0};
+  ForceSharing sharing;
+  sharing.rebuild(drop.nodes, drop.x, drop.y, reach);
+  EXPECT_EQ(drop.share(sharing), 1U);
+  for (const double a : drop.acceleration_x) EXPECT_EQ(a, 0.0);
+}
+
+TEST(ForceSharing, OfNothingDoesNothing) {
+  ForceSharing sharing;
+  Drop drop(Positions{});
+  EXPECT_EQ(drop.share(sharing), 0U);
+  sharing.rebuild(drop.nodes, drop.x, drop.y, reach);
+  EXPECT_EQ(drop.share(sharing), 0U);
+}
+
+TEST(ForceSharing, ListsExactlyTheParticlesWithinReach) {
+  Positions positions = jittered_disc(9.0, 8);
+  Positions nodes = Drop(positions).nodes;
+  const Vector lone_node = {0.5, -0.5};  // with particles at the edge of its reach
+  nodes.push_back(lone_node);
+  nodes.push_back({-3.0, 1.0});  // with none
+  for (int k = 0; k < 16; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / 16;
+    const Vector direction = {std::cos(angle), std::sin(angle)};
+    positions.push_back(lone_node + (1.0 - 1e-6) * reach * direction);
+    positions.push_back(lone_node + (1.0 + 1e-6) * reach * direction);
+  }
+  std::vector<double> x, y;
+  std::vector<std::int32_t> expected;
+  for (const Vector position : positions) {
+    bool near = false;
+    for (const Vector node : nodes) near = near || length(position - node) <= reach;
+    if (near) expected.push_back(static_cast<std::int32_t>(x.size()));
+    x.push_back(position.x);
+    y.push_back(position.y);
+  }
+  ForceSharing sharing;
+  sharing.rebuild(nodes, x, y, reach);
+  EXPECT_EQ((std::vector<std::int32_t>(sharing.particles().begin(), sharing.particles().end())), expected);
+}
+
+}  // namespace
+}  // namespace sphdrop
