@@ -191,8 +191,7 @@ void Hdf5File::close() {
   if (!failed) return;
   const std::string text = fmt::format("{}: H5Fclose failed: {}", path_, hdf5_error_text());
   if (communicator_ == MPI_COMM_NULL) throw Hdf5Error(text);
-  fmt::print(stderr,
-             "error: {}\nThe file is incomplete and the parallel file system in an undefined state; stopping.\n", text);
+  fmt::print(stderr, "error: {}\nThe file is incomplete and MPI-IO in an undefined state; stopping.\n", text);
   std::fflush(stderr);
   MPI_Abort(communicator_, EXIT_FAILURE);
 }

@@ -64,19 +64,20 @@ bool can_be_rewritten(const std::string& path) {
   try {
     FileDescriptor file(path, O_RDWR);
     file.rewrite_start(96);
-    file.synchronise();
+    file.close();
     return true;
   } catch (const std::system_error&) {
     return false;
   }
 }
 
-/// At closing, HDF5 writes the superblock again. Should that fail as the values did, the rank that fails and the others
-/// would wait for each other in H5Fclose for ever.
-void stop_unless_closable(const Communicator& communicator, const std::string& path, const SnapshotError& error) {
+/// At closing, HDF5 writes the superblock again. Should that fail, the rank that fails and the others wait for each
+/// other in H5Fclose for ever; so every rank tries it first. (That all values were written without an error says
+/// nothing: from three ranks on, Open MPI's OMPIO reports success for writes that failed.)
+void stop_unless_closable(const Communicator& communicator, const std::string& path, const std::string& earlier_error) {
   if (communicator.min(std::int64_t{can_be_rewritten(path) ? 1 : 0}) == 1) return;
   if (communicator.rank() == 0) {
-    fmt::print(stderr, "error: {}: {}\nThe file can be neither written nor closed; stopping.\n", path, error.what());
+    fmt::print(stderr, "error: {}: the file can be neither written nor closed; stopping. {}\n", path, earlier_error);
     std::fflush(stderr);
   }
   communicator.barrier();
@@ -95,9 +96,10 @@ void write_values(const Communicator& communicator, const std::string& path,
           communicator, [&] { dataset->write_rows_collectively(data.first_row, data.row_count(), data.bytes.data()); });
     }
   } catch (const SnapshotError& error) {
-    stop_unless_closable(communicator, path, error);
+    stop_unless_closable(communicator, path, error.what());
     throw;
   }
+  stop_unless_closable(communicator, path, "");
   file->close();
 }
 

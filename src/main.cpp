@@ -95,9 +95,9 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   options.directory = directory;
   options.end_time = command.until ? std::min(*command.until, input.time.end) : input.time.end;
   options.version = version_text();
-  options.progress = command.quiet                 ? Progress::Mode::quiet
+  options.progress = command.quiet              ? Progress::Mode::quiet
                      : someone_watches_stderr() ? Progress::Mode::terminal
-                                                   : Progress::Mode::log;
+                                                : Progress::Mode::log;
   Recorder recorder(simulation, options);
   try {
     for (;;) {

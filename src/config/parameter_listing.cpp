@@ -52,8 +52,8 @@ std::string parameter_reference_markdown() {
       text += "| key | type | unit | default | allowed | paper's symbol | meaning |\n|---|---|---|---|---|---|---|\n";
     }
     const Row row = row_of(parameter);
-    text +=
-        fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", row[0], row[1], row[2], row[3], row[4], row[5], row[6]);
+    text += fmt::format("| `{}` | {} | {} | `{}` | {} | {} | {} |\n", row[0], row[1], row[2], row[3], row[4], row[5],
+                        row[6]);
   }
   return text;
 }

@@ -136,7 +136,7 @@ constexpr Parameter table[] = {
     {"solid.kind", "", "-", word<&C::solid, &C::Solid::kind>(solid_words, SolidKind::none), "what the drop meets"},
     {"solid.length", "L", "m",
      real<&C::solid, &C::Solid::length>(Automatic{"rigid_wall: 8 drop diameters; a beam must give it"},
-                                        positive(largest_length)),
+                                        positive(10 * largest_length)),
      "a beam's free length, from the clamp's edge or between the clamps' edges; a rigid wall's width"},
     {"solid.thickness", "H", "m", real<&C::solid, &C::Solid::thickness>(0.25e-3, positive(largest_length)),
      "the beam's thickness"},
@@ -211,7 +211,7 @@ constexpr Parameter table[] = {
      "a faster particle stops the run"},
     {"safety.domain_margin", "", "m",
      real<&C::safety, &C::Safety::domain_margin>(Automatic{"twice the farthest free flight plus the largest body"},
-                                                 positive(1e12)),
+                                                 positive(1e18)),
      "a particle this far outside the box of the initial particles stops the run"},
 };
 

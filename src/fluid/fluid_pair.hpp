@@ -18,8 +18,8 @@ struct FluidState {
 /// Sums over the neighbours of a particle.
 template <class T>
 struct FluidRates {
-  T density_rate{0.0};      ///< drho/dt (9), kg/(m3 s)
-  T acceleration_x{0.0};    ///< dv/dt (12) without contact, tension and gravity, m/s2
+  T density_rate{0.0};    ///< drho/dt (9), kg/(m3 s)
+  T acceleration_x{0.0};  ///< dv/dt (12) without contact, tension and gravity, m/s2
   T acceleration_y{0.0};
   T dissipation_rate{0.0};  ///< specific heating by Pi, W/kg
 };
@@ -40,12 +40,14 @@ template <class T>
   const T velocity_x = i.velocity_x - j.velocity_x, velocity_y = i.velocity_y - j.velocity_y;
   const T squared_distance = x * x + y * y;
   const T distance = sqrt(max(squared_distance, T(1e-60)));
-  const T slope = parameters.kernel.slope(distance) / distance;  // grad W = slope x_ij
+  const T density_sum = i.density + j.density;
+  const InversePair<T> inverse(distance, parameters.viscosity.denominator(squared_distance, density_sum));
+  const T slope = parameters.kernel.slope(distance) * inverse.first;  // grad W = slope x_ij
   const T velocity_dot_distance = velocity_x * x + velocity_y * y;
   const T velocity_dot_gradient = velocity_dot_distance * slope;
 
   rates.density_rate += j.mass * velocity_dot_gradient;  // (9)
-  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, squared_distance, i.density + j.density);
+  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, density_sum, inverse.second);
   // (12): m_j (p_i + p_j)/(rho_i rho_j) = V_j (p_i + p_j)/rho_i
   const T force = (j.volume * (i.pressure + j.pressure) * inverse_density_i + viscous) * slope;
   rates.acceleration_x -= force * x;

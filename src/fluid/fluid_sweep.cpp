@@ -9,7 +9,7 @@ namespace {
 // Rows past the end that a list may name as its padding, or that the last slice covers.
 constexpr std::size_t padding_records = block_size;
 
-FluidState<Pack> load_state(const double* records, const std::int32_t* rows) {
+[[gnu::always_inline]] inline FluidState<Pack> load_state(const double* records, const std::int32_t* rows) {
   const auto r = load_records(records, rows);
   return {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7]};
 }
@@ -49,8 +49,7 @@ void FluidSweep::apply(FluidParticles& fluid, const SlicedNeighbours& list) cons
       const FluidState<Pack> i = load_state(records, own_rows);
       const Pack inverse_density = Pack(1.0) / i.density;
       FluidRates<Pack> rates;
-      const std::int32_t* neighbour_rows =
-          list.neighbours.data() + std::int64_t{slice.first_entry} * block_size + lane;
+      const std::int32_t* neighbour_rows = list.neighbours.data() + std::int64_t{slice.first_entry} * block_size + lane;
       for (std::int32_t entry = 0; entry < slice.entries; ++entry, neighbour_rows += block_size)
         add_fluid_pair(parameters, i, inverse_density, load_state(records, neighbour_rows), rates);
       const std::int64_t row = slice.first_row + lane;

@@ -14,14 +14,18 @@ namespace sphdrop {
 
 /// Where a quantity goes; a quantity may have several roles.
 enum class Role : unsigned {
-  derived = 0,    ///< recomputed from others in every step
-  state = 1,      ///< what the next step starts from: travels with the particle, stands in checkpoints
-  ghosted = 2,    ///< sent to ghosts in every step
-  constant = 4,   ///< never changes: sent to ghosts once, when they are made
-  written = 8,    ///< in snapshots
+  derived = 0,   ///< recomputed from others in every step
+  state = 1,     ///< what the next step starts from: travels with the particle, stands in checkpoints
+  ghosted = 2,   ///< sent to ghosts in every step
+  constant = 4,  ///< never changes: sent to ghosts once, when they are made
+  written = 8,   ///< in snapshots
 };
-constexpr Role operator|(Role a, Role b) { return static_cast<Role>(static_cast<unsigned>(a) | static_cast<unsigned>(b)); }
-constexpr bool has(Role roles, Role role) { return (static_cast<unsigned>(roles) & static_cast<unsigned>(role)) != 0; }
+constexpr Role operator|(Role a, Role b) {
+  return static_cast<Role>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr bool has(Role roles, Role role) {
+  return (static_cast<unsigned>(roles) & static_cast<unsigned>(role)) != 0;
+}
 
 class ParticleSet;
 
@@ -42,7 +46,8 @@ class Field {
 };
 
 struct ScalarField : Field {
-  ScalarField(ParticleSet& set, std::string_view n, std::string_view u, Role r, std::string_view d, double padding = 0.0)
+  ScalarField(ParticleSet& set, std::string_view n, std::string_view u, Role r, std::string_view d,
+              double padding = 0.0)
       : Field(set, n, u, 1, r, d, padding) {}
   double* data() { return columns[0].data(); }
   const double* data() const { return columns[0].data(); }
@@ -51,7 +56,8 @@ struct ScalarField : Field {
 };
 
 struct VectorField : Field {
-  VectorField(ParticleSet& set, std::string_view n, std::string_view u, Role r, std::string_view d, double padding = 0.0)
+  VectorField(ParticleSet& set, std::string_view n, std::string_view u, Role r, std::string_view d,
+              double padding = 0.0)
       : Field(set, n, u, 2, r, d, padding) {}
   Column<double>& x = columns[0];
   Column<double>& y = columns[1];
@@ -85,9 +91,9 @@ class ParticleSet {
   ParticleSet(const ParticleSet&) = delete;
   ParticleSet& operator=(const ParticleSet&) = delete;
 
-  Column<std::int64_t> id;           ///< global, unique over all materials, 0, 1, 2, ...
-  std::vector<RowRange> owned;       ///< ascending, disjoint
-  std::vector<RowRange> ghosts;      ///< the other rows
+  Column<std::int64_t> id;       ///< global, unique over all materials, 0, 1, 2, ...
+  std::vector<RowRange> owned;   ///< ascending, disjoint
+  std::vector<RowRange> ghosts;  ///< the other rows
 
   std::size_t size() const { return id.size(); }
   std::size_t owned_count() const {

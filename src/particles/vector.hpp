@@ -19,17 +19,31 @@ struct Vector {
   friend constexpr bool operator==(Vector a, Vector b) = default;
 };
 
-constexpr double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
+constexpr double dot(Vector a, Vector b) {
+  return a.x * b.x + a.y * b.y;
+}
 /// The out-of-plane component of a x b: positive where b lies to the left of a.
-constexpr double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
-constexpr double squared_length(Vector a) { return dot(a, a); }
+constexpr double cross(Vector a, Vector b) {
+  return a.x * b.y - a.y * b.x;
+}
+constexpr double squared_length(Vector a) {
+  return dot(a, a);
+}
 /// sqrt is correctly rounded everywhere, hypot is not: this one gives the same bits on every machine.
-inline double length(Vector a) { return std::sqrt(squared_length(a)); }
+inline double length(Vector a) {
+  return std::sqrt(squared_length(a));
+}
 /// a / |a|; a must not be zero.
-inline Vector unit(Vector a) { return a / length(a); }
+inline Vector unit(Vector a) {
+  return a / length(a);
+}
 /// a turned by a right angle to the left.
-constexpr Vector left_normal(Vector a) { return {-a.y, a.x}; }
+constexpr Vector left_normal(Vector a) {
+  return {-a.y, a.x};
+}
 /// a turned by a right angle to the right: the outward normal of a curve that has the liquid on its left.
-constexpr Vector right_normal(Vector a) { return {a.y, -a.x}; }
+constexpr Vector right_normal(Vector a) {
+  return {a.y, -a.x};
+}
 
 }  // namespace sphdrop

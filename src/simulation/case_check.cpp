@@ -20,7 +20,9 @@ double bytes_of(const ParticleSet& set) {
   return columns * 8.0 * static_cast<double>(set.size());
 }
 
-double bytes_of(const SlicedNeighbours& list) { return 4.0 * static_cast<double>(list.neighbours.size()); }
+double bytes_of(const SlicedNeighbours& list) {
+  return 4.0 * static_cast<double>(list.neighbours.size());
+}
 
 }  // namespace
 
@@ -48,8 +50,9 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
                       64.0 * static_cast<double>(simulation.fluid().size()) + bytes_of(distribution.inner_fluid()) +
                       bytes_of(distribution.border_fluid());
   const double bytes = static_cast<double>(communicator.sum(static_cast<std::int64_t>(mine)));
-  const auto ghosts = communicator.sum(static_cast<std::int64_t>(
-      simulation.fluid().size() - simulation.fluid().owned_count() + simulation.solid().size() - simulation.solid().owned_count()));
+  const auto ghosts =
+      communicator.sum(static_cast<std::int64_t>(simulation.fluid().size() - simulation.fluid().owned_count() +
+                                                 simulation.solid().size() - simulation.solid().owned_count()));
   const auto largest =
       communicator.max(static_cast<std::int64_t>(simulation.fluid().owned_count() + simulation.solid().owned_count()));
   const auto smallest =
@@ -65,9 +68,11 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
   text += fmt::format("expected wall time  {} on {} rank{} ({:.3g} us a step, measured over {})\n",
                       hours_minutes_seconds(steps * seconds), communicator.size(), communicator.size() == 1 ? "" : "s",
                       1e6 * seconds, timed);
-  text += fmt::format("partition           {} to {} particles a rank, {} ghosts in all, load imbalance {:.3f}, {} of {} cells' edges cut\n",
-                      smallest, largest, ghosts, distribution.quality().imbalance, distribution.quality().cut_edges,
-                      distribution.quality().occupied_cells);
+  text += fmt::format(
+      "partition           {} to {} particles a rank, {} ghosts in all, load imbalance {:.3f}, {} of {} cells' edges "
+      "cut\n",
+      smallest, largest, ghosts, distribution.quality().imbalance, distribution.quality().cut_edges,
+      distribution.quality().occupied_cells);
 
   const double speed = std::hypot(c.drop.velocity_x, c.drop.velocity_y);
   if (c.drop.shape != DropShape::none) {
@@ -75,17 +80,20 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
     if (speed > 0 && sigma > 0)
       text += fmt::format("Weber number        {:.4g}\n", weber_number(c.fluid.density, speed, c.drop.diameter, sigma));
     if (speed > 0 && c.fluid.viscosity > 0)
-      text += fmt::format("Reynolds number     {:.4g} by fluid.viscosity; the artificial viscosity is about {:.3g} m2/s: {:.4g}\n",
-                          reynolds_number(c.fluid.density, speed, c.drop.diameter, c.fluid.viscosity),
-                          c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length / 16,
-                          speed * c.drop.diameter * 16 /
-                              (c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length));
+      text += fmt::format(
+          "Reynolds number     {:.4g} by fluid.viscosity; the artificial viscosity is about {:.3g} m2/s: {:.4g}\n",
+          reynolds_number(c.fluid.density, speed, c.drop.diameter, c.fluid.viscosity),
+          c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length / 16,
+          speed * c.drop.diameter * 16 /
+              (c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length));
   }
   if (c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam) {
-    const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length, c.solid.thickness};
+    const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
+                              c.solid.thickness};
     const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
-    text += fmt::format("beam's first period {:.4g} ms in theory (Eqs 43, 44)\n",
-                        1e3 * period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam)));
+    text += fmt::format(
+        "beam's first period {:.4g} ms in theory (Eqs 43, 44)\n",
+        1e3 * period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam)));
     if (is_cantilever && c.drop.shape == DropShape::round && c.drop.velocity_y < 0) {
       const double depth =
           cantilever_largest_deflection(beam, round_drop_mass(c.fluid.density, c.drop.diameter), -c.drop.velocity_y);

@@ -79,8 +79,7 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
     solid_rows_.push_back(static_cast<std::int32_t>(v.row));
     solid_ids.push_back(solid.id[static_cast<std::size_t>(v.row)]);
   }
-  const int owner =
-      rank_with_most(communicator_, static_cast<std::int64_t>(fluid_rows_.size() + solid_rows_.size()));
+  const int owner = rank_with_most(communicator_, static_cast<std::int64_t>(fluid_rows_.size() + solid_rows_.size()));
   move_record(owner);
   fluid_gather_ = InterfaceGather(communicator_, fluid_ids, fluid_rows_, owner, tags::contact_fluid);
   solid_gather_ = InterfaceGather(communicator_, solid_ids, solid_rows_, owner, tags::contact_solid);
@@ -90,7 +89,8 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   returned_solid_y_.assign(solid.size(), 0.0);
 
   const std::size_t particles = fluid_gather_.ids().size(), vertices = solid_gather_.ids().size();
-  for (auto* column : {&fluid_x_, &fluid_y_, &fluid_mass_, &acceleration_x_, &acceleration_y_}) column->resize(particles);
+  for (auto* column : {&fluid_x_, &fluid_y_, &fluid_mass_, &acceleration_x_, &acceleration_y_})
+    column->resize(particles);
   for (auto* column : {&vertex_x_, &vertex_y_, &force_x_, &force_y_}) column->resize(vertices);
   fluid_gather_.start_gather(
       std::array<const void*, 3>{fluid.position.x.data(), fluid.position.y.data(), fluid.mass.data()});

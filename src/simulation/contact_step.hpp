@@ -1,5 +1,6 @@
 #pragma once
-// Contact between a distributed drop and a distributed solid (Sec. 2.4): gather, solve at the interface's owner, scatter.
+// Contact between a distributed drop and a distributed solid (Sec. 2.4): gather, solve at the interface's owner,
+// scatter.
 
 #include <vector>
 
@@ -14,8 +15,8 @@
 
 namespace sphdrop {
 
-/// In a step: start(), work(), finish(). Only the liquid within reach of the boundary and the boundary within reach of the
-/// liquid are gathered.
+/// In a step: start(), work(), finish(). Only the liquid within reach of the boundary and the boundary within reach of
+/// the liquid are gathered.
 class ContactStep {
  public:
   /// `polylines`: the solid's boundary as global ids, the solid on the right.
@@ -27,8 +28,8 @@ class ContactStep {
 
   /// Sends positions to the owner.
   void start(const FluidParticles& fluid, const SolidParticles& solid);
-  /// At the owner: forces at `time`, where Eq 24 takes the step to come, and the impulse they give over the time they act,
-  /// `kick`; starts sending them back. All in s.
+  /// At the owner: forces at `time`, where Eq 24 takes the step to come, and the impulse they give over the time they
+  /// act, `kick`; starts sending them back. All in s.
   void work(double time, double step, double kick);
   /// Adds the accelerations to liquid and boundary rows.
   void finish(FluidParticles& fluid, SolidParticles& solid);

@@ -59,7 +59,8 @@ void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
     ranks.clear();
     partition_.other_ranks_within(p.x, p.y, range_.list_reach(), ranks);
     keys[row] = {!ranks.empty(), static_cast<std::int64_t>(std::floor(p.y * inverse_cell)),
-                 static_cast<std::int64_t>(std::floor(p.x * inverse_cell)), fluid.id[row], static_cast<std::int32_t>(row)};
+                 static_cast<std::int64_t>(std::floor(p.x * inverse_cell)), fluid.id[row],
+                 static_cast<std::int32_t>(row)};
   }
   std::sort(keys.begin(), keys.end());
   std::vector<std::int32_t> order(owned);
@@ -70,8 +71,8 @@ void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
 
   fluid_halo_ = make_halo(communicator_, fluid, fluid.position, partition_, range_.list_reach(), tags::fluid_halo);
   // The halo of detection reaches the circles that overlap a particle's own, 4h away.
-  wide_halo_ = halo_plan(communicator_, fluid, fluid.position, partition_, 2.0 * range_.support + range_.skin,
-                         tags::wide_halo);
+  wide_halo_ =
+      halo_plan(communicator_, fluid, fluid.position, partition_, 2.0 * range_.support + range_.skin, tags::wide_halo);
   const auto end = static_cast<std::int32_t>(owned);
   inner_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {0, inner}, range_.list_reach());
   border_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {inner, end}, range_.list_reach());

@@ -13,8 +13,8 @@ namespace sphdrop {
 
 /// Message tags: one range for every plan, as several are in flight at a time.
 namespace tags {
-inline constexpr int migration = 100, fluid_halo = 110, solid_halo = 120, wide_halo = 130, surface = 140, contact_fluid = 150,
-                     contact_solid = 160;
+inline constexpr int migration = 100, fluid_halo = 110, solid_halo = 120, wide_halo = 130, surface = 140,
+                     contact_fluid = 150, contact_solid = 160;
 }
 
 /// Lengths of the lists and halos.

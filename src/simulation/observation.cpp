@@ -18,10 +18,30 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Sums over all particles of all ranks, exact and therefore independent of who holds them.
 enum Sum : std::size_t {
-  fluid_mass, fluid_x, fluid_y, fluid_xx, fluid_yy, fluid_pressure, fluid_momentum_x, fluid_momentum_y, fluid_spin,
-  fluid_kinetic, fluid_compressive, fluid_heat, fluid_correction,
-  solid_mass_x, solid_mass_y, solid_momentum_x, solid_momentum_y, solid_spin, solid_kinetic, solid_elastic, solid_heat, solid_artificial,
-  probe_deflection, sum_count
+  fluid_mass,
+  fluid_x,
+  fluid_y,
+  fluid_xx,
+  fluid_yy,
+  fluid_pressure,
+  fluid_momentum_x,
+  fluid_momentum_y,
+  fluid_spin,
+  fluid_kinetic,
+  fluid_compressive,
+  fluid_heat,
+  fluid_correction,
+  solid_mass_x,
+  solid_mass_y,
+  solid_momentum_x,
+  solid_momentum_y,
+  solid_spin,
+  solid_kinetic,
+  solid_elastic,
+  solid_heat,
+  solid_artificial,
+  probe_deflection,
+  sum_count
 };
 using Sums = std::array<ExactSum, sum_count>;
 
@@ -65,12 +85,14 @@ void add_solid(const Simulation& simulation, Sums& sums) {
     sums[solid_spin].add(m * cross(x, v));
     sums[solid_kinetic].add(kinetic_energy(m, v));
     const double xx = s.deviatoric_stress.xx[row], yy = s.deviatoric_stress.yy[row], xy = s.deviatoric_stress.xy[row];
-    const DeviatoricStress tau = plane_strain ? plane_strain_deviator(xx, yy, xy) : two_dimensional_deviator(xx, yy, xy);
+    const DeviatoricStress tau =
+        plane_strain ? plane_strain_deviator(xx, yy, xy) : two_dimensional_deviator(xx, yy, xy);
     sums[solid_elastic].add(m / s.density[row] * distortion_energy_density(tau, material.shear_modulus()) +
                             m * compressive_energy_per_mass(s.density[row], material.density, material.sound_speed()));
     sums[solid_heat].add(s.dissipated_energy[row]);
     sums[solid_artificial].add(s.artificial_stress_work[row]);
-    if (std::binary_search(probe.begin(), probe.end(), s.id[row])) sums[probe_deflection].add(x.y - s.reference_position.y[row]);
+    if (std::binary_search(probe.begin(), probe.end(), s.id[row]))
+      sums[probe_deflection].add(x.y - s.reference_position.y[row]);
   });
 }
 

@@ -9,8 +9,8 @@
 
 namespace sphdrop {
 
-/// The watched quantities at one instant, per metre of depth; the same on every rank, and the same bits for any number of
-/// them. NaN for what the case does not have.
+/// The watched quantities at one instant, per metre of depth; the same on every rank, and the same bits for any number
+/// of them. NaN for what the case does not have.
 struct Observation {
   double time, step, time_step;
   double drop_width, drop_height, deflection;
@@ -30,12 +30,13 @@ struct Observation {
 /// observation, from which `unaccounted` counts.
 Observation observe(const Simulation& simulation, double initial_total);
 
-/// The 64-bit hash over id, position, velocity, density and stress of every particle at the present instant; collective.
+/// The 64-bit hash over id, position, velocity, density and stress of every particle at the present instant;
+/// collective.
 std::uint64_t state_hash(const Simulation& simulation);
 
 struct ObservedQuantity {
   std::string_view name, unit, description;
-  double Observation::* value;
+  double Observation::*value;
 };
 
 /// Every quantity of an Observation, in the order of history.csv's columns.

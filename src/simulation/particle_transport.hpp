@@ -9,8 +9,8 @@
 
 namespace sphdrop {
 
-/// Collective. Sends every owned row (`destination`: shape [owned rows], ascending row) with its id and state to its new
-/// owner. Afterwards all rows are owned and in no particular order; ghosts are gone.
+/// Collective. Sends every owned row (`destination`: shape [owned rows], ascending row) with its id and state to its
+/// new owner. Afterwards all rows are owned and in no particular order; ghosts are gone.
 void migrate(const Communicator& communicator, ParticleSet& particles, std::span<const int> destination, int tag);
 
 /// new row k = old row order[k], for ids, state and constants; all rows must be owned.

@@ -11,8 +11,7 @@ namespace sphdrop {
 
 enum class Phase { fluid_sweep, solid_sweep, update, surface_tension, contact, communication, redistribution, output };
 inline constexpr std::array<std::string_view, 8> phase_names{
-    "fluid sweep", "solid sweep",   "update",         "surface tension",
-    "contact",     "communication", "redistribution", "output"};
+    "fluid sweep", "solid sweep", "update", "surface tension", "contact", "communication", "redistribution", "output"};
 
 /// Seconds by phase on this rank. Everything between two calls of lap() belongs to the phase named at the second.
 class PhaseTimer {

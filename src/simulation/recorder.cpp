@@ -17,7 +17,9 @@ std::vector<HistoryColumn> history_columns() {
 }
 
 // Due times are multiples of the interval, so that they do not depend on when the run was started or interrupted.
-double next_multiple(double time, double interval) { return interval * (std::floor(time / interval * (1 + 1e-12)) + 1.0); }
+double next_multiple(double time, double interval) {
+  return interval * (std::floor(time / interval * (1 + 1e-12)) + 1.0);
+}
 
 std::optional<double> if_known(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
@@ -33,7 +35,8 @@ Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
     : simulation_(simulation),
       options_(options),
       snapshots_(simulation.communicator(), options.directory),
-      progress_(stderr, simulation.communicator().rank() == 0 ? options.progress : Progress::Mode::quiet, options.end_time),
+      progress_(stderr, simulation.communicator().rank() == 0 ? options.progress : Progress::Mode::quiet,
+                options.end_time),
       start_(std::chrono::steady_clock::now()) {
   on_first_rank([&] { history_.emplace(HistoryWriter::create(options_.directory, history_columns())); });
 }
@@ -87,8 +90,9 @@ void Recorder::write_row() {
   last_->unaccounted = last_->unaccounted - (first_->step == o.step ? o.unaccounted : 0.0);
   const std::int64_t touching = static_cast<std::int64_t>(o.contact_count);
   if (std::isfinite(o.drop_width) || std::isfinite(o.deflection))
-    extremes_.add(o.time, std::isfinite(o.drop_width) ? o.drop_width : 0.0, std::isfinite(o.deflection) ? o.deflection : 0.0,
-                  touching, std::isfinite(o.drop_velocity_y) ? o.drop_velocity_y : 0.0);
+    extremes_.add(o.time, std::isfinite(o.drop_width) ? o.drop_width : 0.0,
+                  std::isfinite(o.deflection) ? o.deflection : 0.0, touching,
+                  std::isfinite(o.drop_velocity_y) ? o.drop_velocity_y : 0.0);
   on_first_rank([&] {
     std::vector<double> values;
     for (const ObservedQuantity& q : observed_quantities()) values.push_back((*last_).*q.value);
@@ -154,7 +158,8 @@ void Recorder::write_snapshot() {
       SnapshotColumn::scalar("stress_yy", "Pa", "total stress; the liquid's is -p", yy),
       SnapshotColumn::scalar("stress_xy", "Pa", "total stress; the liquid's is 0", xy),
   };
-  const SnapshotHeader header{simulation_.time(), simulation_.step(), hash_, simulation_.input().name, options_.version};
+  const SnapshotHeader header{simulation_.time(), simulation_.step(), hash_, simulation_.input().name,
+                              options_.version};
   last_snapshot_ = snapshots_.write(header, {simulation_.fluid_total() + simulation_.solid_total(), id, x, y}, columns);
   last_snapshot_step_ = simulation_.step();
 }
@@ -175,15 +180,18 @@ RunSummary Recorder::summary() const {
   if (has_drop && has_solid) r.contact = contact_summary(ContactRecord::from_numbers(record));
 
   if (has_drop && extremes_.width().sampled())
-    r.drop = RunSummary::Drop{c.drop.diameter, *extremes_.width().sampled(), has_solid ? extremes_.restitution() : std::nullopt};
+    r.drop = RunSummary::Drop{c.drop.diameter, *extremes_.width().sampled(),
+                              has_solid ? extremes_.restitution() : std::nullopt};
 
   if (is_beam && extremes_.depth().sampled()) {
-    const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length, c.solid.thickness};
+    const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
+                              c.solid.thickness};
     RunSummary::Beam b;
     b.largest_deflection = *extremes_.depth().sampled();
     b.length = c.solid.length;
     const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
-    b.theory_period = period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam));
+    b.theory_period =
+        period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam));
     if (is_cantilever && has_drop && c.drop.velocity_y < 0)
       b.theory_deflection =
           cantilever_largest_deflection(beam, round_drop_mass(c.fluid.density, c.drop.diameter), -c.drop.velocity_y);
@@ -199,7 +207,7 @@ RunSummary Recorder::summary() const {
                                   {last_->contact_impulse_x, last_->contact_impulse_y},
                                   impulse_mass * last_->time * Vector{c.gravity.x, c.gravity.y}};
     }
-    const auto term = [&](const char* name, double Observation::* member, double sign = 1.0) {
+    const auto term = [&](const char* name, double Observation::*member, double sign = 1.0) {
       r.energy.push_back({name, sign * ((*first_).*member), sign * ((*last_).*member)});
     };
     if (has_drop) {
@@ -227,7 +235,8 @@ RunSummary Recorder::summary() const {
   for (int rank = 0; rank < communicator.size(); ++rank) {
     const double* mine = all.data() + static_cast<std::size_t>(rank) * seconds.size();
     double busy = 0;
-    for (const Phase phase : {Phase::fluid_sweep, Phase::solid_sweep, Phase::update, Phase::surface_tension, Phase::contact})
+    for (const Phase phase :
+         {Phase::fluid_sweep, Phase::solid_sweep, Phase::update, Phase::surface_tension, Phase::contact})
       busy += mine[static_cast<std::size_t>(phase)];
     largest = std::max(largest, busy);
     total += busy;
@@ -235,7 +244,8 @@ RunSummary Recorder::summary() const {
   if (total > 0) r.load_imbalance = largest * communicator.size() / total;
   for (std::size_t k = 0; k < phase_names.size(); ++k) {
     double mean = 0;
-    for (int rank = 0; rank < communicator.size(); ++rank) mean += all[static_cast<std::size_t>(rank) * seconds.size() + k];
+    for (int rank = 0; rank < communicator.size(); ++rank)
+      mean += all[static_cast<std::size_t>(rank) * seconds.size() + k];
     r.phases.push_back({std::string(phase_names[k]), mean / communicator.size()});
   }
   r.particles = simulation_.fluid_total() + simulation_.solid_total();

@@ -45,11 +45,13 @@ void Simulation::stop_with_diagnosis() {
   find_suspects(solid_, case_.safety.speed_limit, 1, mine);
   std::vector<Suspect> all = communicator_.all_gather(std::span<const Suspect>(mine));
   if (!all.empty()) {
-    const Suspect& first = *std::min_element(all.begin(), all.end(), [](const Suspect& a, const Suspect& b) { return a.id < b.id; });
+    const Suspect& first =
+        *std::min_element(all.begin(), all.end(), [](const Suspect& a, const Suspect& b) { return a.id < b.id; });
     const bool finite = std::isfinite(first.velocity_x) && std::isfinite(first.velocity_y) && std::isfinite(first.x) &&
                         std::isfinite(first.y);
     throw SafetyError(fmt::format(
-        "step {}, t = {:.6g} s: {} ({} particle{} in all): {}. The state is not sound: try a smaller time.step or CFL number, "
+        "step {}, t = {:.6g} s: {} ({} particle{} in all): {}. The state is not sound: try a smaller time.step or CFL "
+        "number, "
         "or look at the last snapshots for what went wrong{}.",
         step_, time_, finite ? "a particle is faster than safety.speed_limit" : "a value is not a number", all.size(),
         all.size() == 1 ? "" : "s", describe(first),
@@ -68,11 +70,14 @@ void Simulation::stop_with_diagnosis() {
     }
   });
   all = communicator_.all_gather(std::span<const Suspect>(mine));
-  throw SafetyError(fmt::format(
-      "step {}, t = {:.6g} s: overlap of {:.6g} m with the solid, more than contact.overlap_limit = {:.6g} of the contact "
-      "distance: {}. The contact's spring would throw it out: try a smaller time.step, or contact.overlap_limit if you know "
-      "that it is harmless.",
-      step_, time_, deepest[1], case_.contact.overlap_limit, all.empty() ? fmt::format("particle {}", id) : describe(all[0])));
+  throw SafetyError(
+      fmt::format("step {}, t = {:.6g} s: overlap of {:.6g} m with the solid, more than contact.overlap_limit = {:.6g} "
+                  "of the contact "
+                  "distance: {}. The contact's spring would throw it out: try a smaller time.step, or "
+                  "contact.overlap_limit if you know "
+                  "that it is harmless.",
+                  step_, time_, deepest[1], case_.contact.overlap_limit,
+                  all.empty() ? fmt::format("particle {}", id) : describe(all[0])));
 }
 
 void Simulation::check_nothing_is_lost() {
@@ -88,16 +93,18 @@ void Simulation::check_nothing_is_lost() {
   look(solid_, 1);
   const std::vector<Suspect> all = communicator_.all_gather(std::span<const Suspect>(mine));
   if (!all.empty()) {
-    const Suspect& first = *std::min_element(all.begin(), all.end(), [](const Suspect& a, const Suspect& b) { return a.id < b.id; });
-    throw SafetyError(fmt::format(
-        "step {}, t = {:.6g} s: {} particle{} left the domain, the box of the initial particles and safety.domain_margin = "
-        "{:.6g} m about it: {}. Make the margin larger if it may fly so far.",
-        step_, time_, all.size(), all.size() == 1 ? "" : "s", case_.safety.domain_margin, describe(first)));
+    const Suspect& first =
+        *std::min_element(all.begin(), all.end(), [](const Suspect& a, const Suspect& b) { return a.id < b.id; });
+    throw SafetyError(
+        fmt::format("step {}, t = {:.6g} s: {} particle{} left the domain, the box of the initial particles and "
+                    "safety.domain_margin = "
+                    "{:.6g} m about it: {}. Make the margin larger if it may fly so far.",
+                    step_, time_, all.size(), all.size() == 1 ? "" : "s", case_.safety.domain_margin, describe(first)));
   }
   const auto count = communicator_.sum(static_cast<std::int64_t>(fluid_.owned_count() + solid_.owned_count()));
   if (count != fluid_total_ + solid_total_)
-    throw SafetyError(fmt::format("step {}, t = {:.6g} s: {} particles of {} are left: they were lost between ranks", step_,
-                                  time_, count, fluid_total_ + solid_total_));
+    throw SafetyError(fmt::format("step {}, t = {:.6g} s: {} particles of {} are left: they were lost between ranks",
+                                  step_, time_, count, fluid_total_ + solid_total_));
 }
 
 }  // namespace sphdrop

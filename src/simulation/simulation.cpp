@@ -18,7 +18,13 @@ namespace sphdrop {
 namespace {
 
 // What one reduction a step brings to all ranks.
-enum Maximum : std::size_t { squared_speed, squared_displacement, squared_detection_displacement, failure, maxima_count };
+enum Maximum : std::size_t {
+  squared_speed,
+  squared_displacement,
+  squared_detection_displacement,
+  failure,
+  maxima_count
+};
 
 std::vector<std::vector<std::int64_t>> global_polylines(const InitialSolid& solid, std::size_t first_id) {
   std::vector<std::vector<std::int64_t>> polylines;
@@ -75,8 +81,10 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
   take_initial_state(initial_fluid, initial_solid);
   timer_.start();
   double largest = 0;
-  fluid_.for_each_owned([&](std::size_t row) { largest = std::max(largest, squared_length(fluid_.staggered_velocity.at(row))); });
-  solid_.for_each_owned([&](std::size_t row) { largest = std::max(largest, squared_length(solid_.staggered_velocity.at(row))); });
+  fluid_.for_each_owned(
+      [&](std::size_t row) { largest = std::max(largest, squared_length(fluid_.staggered_velocity.at(row))); });
+  solid_.for_each_owned(
+      [&](std::size_t row) { largest = std::max(largest, squared_length(solid_.staggered_velocity.at(row))); });
   post_maxima({largest, 0, 0, false}, {});
 }
 
@@ -132,8 +140,9 @@ void Simulation::evaluate() {
   const std::span<const double> maxima = maxima_.finish();
   timer_.lap(Phase::communication);
   check_safety(maxima[failure]);
-  detection_is_due_ = surface_tension_.is_enabled() &&
-                      (step_ == 0 || maxima[squared_detection_displacement] >= surface_tension_.largest_squared_displacement());
+  detection_is_due_ =
+      surface_tension_.is_enabled() &&
+      (step_ == 0 || maxima[squared_detection_displacement] >= surface_tension_.largest_squared_displacement());
   const double squared_speed_now = maxima[squared_speed];
   redistribute_if_due(maxima[squared_displacement]);
 
@@ -146,7 +155,8 @@ void Simulation::evaluate() {
   for (const RowRange& range : fluid_.owned)
     for (std::int32_t k = range.begin; k < range.end; ++k) {
       const auto row = static_cast<std::size_t>(k);
-      fluid_.pressure[row] = equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
+      fluid_.pressure[row] =
+          equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
     }
   fluid_sweep_.pack(fluid_, fluid_.owned);
   solid_sweep_.update_stress(solid_, solid_.owned);
@@ -210,6 +220,10 @@ void Simulation::redistribute_if_due(double largest_squared_displacement) {
   check_nothing_is_lost();
   corrected_density_.resize(fluid_.size() + column_padding);
   fluid_sweep_.resize(fluid_);
+  // Blocks without ghosts in reach may still load ghosts' rows, to weight them by zero, before the halo has arrived.
+  for (const RowRange& range : solid_.ghosts)
+    std::fill(solid_.density.data() + range.begin, solid_.density.data() + range.end, case_.solid.density);
+  solid_sweep_.update_stress(solid_, solid_.ghosts);
   contact_.regather(fluid_, solid_, parameters_.range);
   if (surface_tension_.is_enabled() && !detection_is_due_) surface_tension_.regather(fluid_);
   is_distributed_ = true;
@@ -229,9 +243,8 @@ void Simulation::correct_density() {
     const double before = fluid_.density[row], after = corrected_density_[row];
     fluid_.staggered_density[row] += after - before;
     fluid_.density[row] = after;
-    fluid_.correction_energy[row] +=
-        fluid_.mass[row] * (compressive_energy_per_mass(after, reference, sound_speed) -
-                            compressive_energy_per_mass(before, reference, sound_speed));
+    fluid_.correction_energy[row] += fluid_.mass[row] * (compressive_energy_per_mass(after, reference, sound_speed) -
+                                                         compressive_energy_per_mass(before, reference, sound_speed));
   });
   timer_.lap(Phase::fluid_sweep);
 }
@@ -252,7 +265,8 @@ void Simulation::sweep_the_rest() {
   for (const RowRange& range : fluid_.ghosts)
     for (std::int32_t k = range.begin; k < range.end; ++k) {
       const auto row = static_cast<std::size_t>(k);
-      fluid_.pressure[row] = equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
+      fluid_.pressure[row] =
+          equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
     }
   fluid_sweep_.pack(fluid_, fluid_.ghosts);
   fluid_sweep_.apply(fluid_, distribution_.border_fluid());

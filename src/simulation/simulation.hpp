@@ -20,8 +20,8 @@
 
 namespace sphdrop {
 
-/// A state that must not be computed on: a NaN, a particle too fast, lost or too deep in the solid. Thrown on all ranks at
-/// the same step with the same text, which names the particle.
+/// A state that must not be computed on: a NaN, a particle too fast, lost or too deep in the solid. Thrown on all ranks
+/// at the same step with the same text, which names the particle.
 struct SafetyError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

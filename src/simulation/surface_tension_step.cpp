@@ -90,9 +90,10 @@ void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribu
 }
 
 void SurfaceTensionStep::regather(const FluidParticles& fluid) {
-  // A surface point is d/2 from its particle and acts as far as 2h; both ends may have moved since detection by a little
-  // more than its displacement, as a step is finished before it is noticed.
-  const double reach = support_ + 0.5 * spacing_ + 3.0 * detection_displacement_ + 0.02 * spacing_;
+  // A surface point is d/2 from its particle and acts as far as 2h. Until the next detection both ends move by its
+  // displacement and a step, the point a little more, as it also turns about its particle.
+  const double action = support_ + 6.0 * detection_displacement_ + 0.02 * spacing_;
+  const double reach = action + 0.5 * spacing_;
   std::vector<double> arc_x(arc_centres_.size()), arc_y(arc_centres_.size());
   for (std::size_t k = 0; k < arc_centres_.size(); ++k) {
     arc_x[k] = arc_centres_[k].x;
@@ -139,7 +140,8 @@ void SurfaceTensionStep::regather(const FluidParticles& fluid) {
     node_particle_[k] = index;
     node_positions_[k] = {x_[static_cast<std::size_t>(index)], y_[static_cast<std::size_t>(index)]};
   }
-  sharing_.rebuild(node_positions_, x_, y_, reach);
+  surface_points(curves_, node_positions_, spacing_, points_);
+  sharing_.rebuild(points_, x_, y_, action);
 }
 
 void SurfaceTensionStep::start(const FluidParticles& fluid) {
@@ -190,8 +192,8 @@ SurfaceReport SurfaceTensionStep::report() const {
     if (!range.carries_force()) continue;
     report.curve_count += 1.0;
     for (std::size_t k = range.first; k < range.last; ++k) {
-      const double arc_length = 0.5 * (length(points_[range.next(k)] - points_[k]) +
-                                       length(points_[k] - points_[range.previous(k)]));
+      const double arc_length =
+          0.5 * (length(points_[range.next(k)] - points_[k]) + length(points_[k] - points_[range.previous(k)]));
       weight += arc_length;
       first += arc_length * curvature[k];
       second += arc_length * curvature[k] * curvature[k];

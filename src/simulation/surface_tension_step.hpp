@@ -15,13 +15,13 @@ namespace sphdrop {
 
 /// The surface as the owner sees it at the last evaluated instant; the same on all ranks only after a broadcast.
 struct SurfaceReport {
-  double length = 0;                     ///< m
-  double mean_curvature = 0;             ///< over the nodes, weighted by arc length, 1/m
-  double curvature_scatter = 0;          ///< standard deviation, same weights, 1/m
+  double length = 0;             ///< m
+  double mean_curvature = 0;     ///< over the nodes, weighted by arc length, 1/m
+  double curvature_scatter = 0;  ///< standard deviation, same weights, 1/m
   double node_count = 0;
-  double curve_count = 0;                ///< of three nodes or more
-  double net_force = 0;                  ///< |sum of the tension's forces| over the sum of their magnitudes
-  double lost_points = 0;                ///< surface points without a particle to act on
+  double curve_count = 0;  ///< of three nodes or more
+  double net_force = 0;    ///< |sum of the tension's forces| over the sum of their magnitudes
+  double lost_points = 0;  ///< surface points without a particle to act on
   double unmatched_arcs = 0;
 };
 

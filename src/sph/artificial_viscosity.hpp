@@ -11,15 +11,30 @@ struct ArtificialViscosity {
   double sound_speed = 0;       ///< c, m/s
   double smoothing_length = 0;  ///< h, m
 
-  /// Pi_ij = (-alpha c mu + beta mu^2) / rho_mean with mu = h v_ij.x_ij / (r^2 + 0.01 h^2), on approaching pairs only;
-  /// m5/(kg s2). T is double or a SIMD vector.
+  /// (r^2 + 0.01 h^2)(rho_i + rho_j), what Pi_ij is divided by: the caller inverts it together with other numbers.
   template <class T>
-  [[gnu::always_inline]] T operator()(const T& velocity_dot_distance, const T& squared_distance,
-                                      const T& density_sum) const {
+  [[gnu::always_inline]] T denominator(const T& squared_distance, const T& density_sum) const {
+    return (squared_distance + T(0.01 * smoothing_length * smoothing_length)) * density_sum;
+  }
+
+  /// Pi_ij = (-alpha c mu + beta mu^2) / rho_mean with mu = h v_ij.x_ij / (r^2 + 0.01 h^2), on approaching pairs only;
+  /// m5/(kg s2). `inverse_denominator` is 1/denominator(). T is double or a SIMD vector.
+  template <class T>
+  [[gnu::always_inline]] T operator()(const T& velocity_dot_distance, const T& density_sum,
+                                      const T& inverse_denominator) const {
     using std::min;
-    const T approaching = min(velocity_dot_distance, T(0.0));
-    const T mu = T(smoothing_length) * approaching / (squared_distance + T(0.01 * smoothing_length * smoothing_length));
-    return T(2.0) * (mu * (T(beta) * mu - T(alpha * sound_speed))) / density_sum;
+    const T mu_over_density_sum = T(smoothing_length) * min(velocity_dot_distance, T(0.0)) * inverse_denominator;
+    return T(2.0) * mu_over_density_sum * (T(beta) * (mu_over_density_sum * density_sum) - T(alpha * sound_speed));
+  }
+};
+
+/// 1/a and 1/b by one division: dividing costs as much as ten multiplications. The product a b must be in range.
+template <class T>
+struct InversePair {
+  T first, second;
+
+  [[gnu::always_inline]] InversePair(const T& a, const T& b) : first(T(1.0) / (a * b)), second(first * a) {
+    first = first * b;
   }
 };
 

@@ -6,8 +6,8 @@
 
 namespace sphdrop {
 
-/// W(q) = a (2/3 - q^2 + q^3/2) for q < 1, a (2 - q)^3 / 6 for 1 <= q < 2, 0 beyond; q = r/h, a = 15/(7 pi h^2) (Eq 11).
-/// Written without branches, so that a lane of a vector outside the support contributes an exact zero.
+/// W(q) = a (2/3 - q^2 + q^3/2) for q < 1, a (2 - q)^3 / 6 for 1 <= q < 2, 0 beyond; q = r/h, a = 15/(7 pi h^2) (Eq
+/// 11). Written without branches, so that a lane of a vector outside the support contributes an exact zero.
 struct CubicSpline {
   double inverse_smoothing_length;  ///< 1/h, 1/m
   double value_factor;              ///< a/6, 1/m2

@@ -1,5 +1,6 @@
 #pragma once
-// Neighbour lists for particles in lattice order (solid): the neighbours of consecutive rows lie at the same few offsets.
+// Neighbour lists for particles in lattice order (solid): the neighbours of consecutive rows lie at the same few
+// offsets.
 
 #include <cstdint>
 #include <vector>
@@ -8,10 +9,10 @@
 
 namespace sphdrop {
 
-/// For each block of eight consecutive rows the ascending union of the row offsets j - i of its particles' neighbours, so
-/// that a neighbour of all eight is one contiguous load. Rows are sorted by global id, hence every particle sums in
-/// ascending id. A row at an offset that is no neighbour is out of the kernel's reach and adds an exact zero, and so does
-/// the particle itself (offset 0 may be among them).
+/// For each block of eight consecutive rows the ascending union of the row offsets j - i of its particles' neighbours,
+/// so that a neighbour of all eight is one contiguous load. Rows are sorted by global id, hence every particle sums in
+/// ascending id. A row at an offset that is no neighbour is out of the kernel's reach and adds an exact zero, and so
+/// does the particle itself (offset 0 may be among them).
 struct OffsetNeighbours {
   struct Block {
     std::int32_t first_row = 0;

@@ -45,8 +45,8 @@ SlicedNeighbours SlicedNeighbours::build(const ParticleSet& particles, const Col
     for (std::int32_t lane = 0; lane < slice.rows; ++lane) {
       const auto& mine = found[static_cast<std::size_t>(lane)];
       for (std::size_t k = 0; k < mine.size(); ++k)
-        list.neighbours[(static_cast<std::size_t>(slice.first_entry) + k) * block_size + static_cast<std::size_t>(lane)] =
-            mine[k].row;
+        list.neighbours[(static_cast<std::size_t>(slice.first_entry) + k) * block_size +
+                        static_cast<std::size_t>(lane)] = mine[k].row;
     }
     list.slices.push_back(slice);
   }

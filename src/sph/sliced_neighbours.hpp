@@ -8,13 +8,14 @@
 
 namespace sphdrop {
 
-/// Slices of eight consecutive owned rows. Entry k of a slice holds the k-th neighbour of each of its rows, in ascending
-/// global id: the order in which a particle sums over its neighbours is a property of the particle, not of the list. A
-/// shorter list is filled up with the set's padding row, which is far away. The particle itself is not in its list.
+/// Slices of eight consecutive owned rows. Entry k of a slice holds the k-th neighbour of each of its rows, in
+/// ascending global id: the order in which a particle sums over its neighbours is a property of the particle, not of
+/// the list. A shorter list is filled up with the set's padding row, which is far away. The particle itself is not in
+/// its list.
 struct SlicedNeighbours {
   struct Slice {
     std::int32_t first_row = 0;
-    std::int32_t rows = 0;       ///< 1 to 8: the last slice of a range may be short
+    std::int32_t rows = 0;  ///< 1 to 8: the last slice of a range may be short
     std::int32_t first_entry = 0;
     std::int32_t entries = 0;
   };

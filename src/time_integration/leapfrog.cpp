@@ -107,8 +107,8 @@ MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_l
   advance_column(s.owned, steps.kick(), s.density_rate.columns[0], s.staggered_density.columns[0],
                  s.staggered_density.columns[0]);
   for (std::size_t c = 0; c < 3; ++c)
-    advance_column(s.owned, steps.kick(), s.deviatoric_stress_rate.columns[c],
-                   s.staggered_deviatoric_stress.columns[c], s.staggered_deviatoric_stress.columns[c]);
+    advance_column(s.owned, steps.kick(), s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
+                   s.staggered_deviatoric_stress.columns[c]);
   advance_column(s.owned, steps.next, s.staggered_velocity.x, s.position.x, s.position.x);
   advance_column(s.owned, steps.next, s.staggered_velocity.y, s.position.y, s.position.y);
   SquaredMaximum speed, moved, none;

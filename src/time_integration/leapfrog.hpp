@@ -1,9 +1,10 @@
 #pragma once
 // Kick-drift leap-frog with predicted rates (Eqs 36-39; Liu & Liu 2003).
 //
-// Between steps density, velocity and deviatoric stress belong to t - dt/2 ("staggered"), position to t. A step predicts
-// them at t, evaluates the rates there, kicks the staggered values to t + dt/2 and drifts position to t + dt. Before the
-// first step the staggered values are those at t = 0: with previous step 0, predict() copies and kick() takes half a step.
+// Between steps density, velocity and deviatoric stress belong to t - dt/2 ("staggered"), position to t. A step
+// predicts them at t, evaluates the rates there, kicks the staggered values to t + dt/2 and drifts position to t + dt.
+// Before the first step the staggered values are those at t = 0: with previous step 0, predict() copies and kick()
+// takes half a step.
 
 #include <span>
 
@@ -33,8 +34,8 @@ struct MotionMaxima {
 void predict(FluidParticles& fluid, double previous_step);
 void predict(SolidParticles& solid, double previous_step);
 
-/// Velocity, density (and deviatoric stress) from t - previous/2 to t + next/2, position from t to t + next (36-39); held
-/// particles (mobility 0) stay. `speed_limit` in m/s.
+/// Velocity, density (and deviatoric stress) from t - previous/2 to t + next/2, position from t to t + next (36-39);
+/// held particles (mobility 0) stay. `speed_limit` in m/s.
 MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit);
 MotionMaxima kick_and_drift(SolidParticles& solid, StepLengths steps, double speed_limit);
 

@@ -9,14 +9,14 @@
 namespace sphdrop {
 
 struct TimeStepLimits {
-  double sound_cfl = 0.1;        ///< factor of (40)
-  double capillary_cfl = 0.1;    ///< factor of (41)
-  double viscous_cfl = 0.1;      ///< factor of (42)
-  double smoothing_length = 0;   ///< h, m
-  double sound_speed = 0;        ///< c = max(c_f, c_s), m/s
-  double density = 0;            ///< rho of the liquid, kg/m3
-  double surface_tension = 0;    ///< sigma, N/m; 0 lifts (41)
-  double viscosity = 0;          ///< mu, Pa s; 0 lifts (42)
+  double sound_cfl = 0.1;       ///< factor of (40)
+  double capillary_cfl = 0.1;   ///< factor of (41)
+  double viscous_cfl = 0.1;     ///< factor of (42)
+  double smoothing_length = 0;  ///< h, m
+  double sound_speed = 0;       ///< c = max(c_f, c_s), m/s
+  double density = 0;           ///< rho of the liquid, kg/m3
+  double surface_tension = 0;   ///< sigma, N/m; 0 lifts (41)
+  double viscosity = 0;         ///< mu, Pa s; 0 lifts (42)
 };
 
 /// 0.1 h/(c + u_max), s (40).

@@ -9,11 +9,12 @@
 namespace sphdrop {
 
 /// R of a particle: along each principal direction of sigma with a principal stress s > 0, -coefficient s / rho^2, zero
-/// otherwise, turned back to x and y (20-23). The angle of Eq 21 enters through its double alone, whose sine and cosine are
-/// sigma_xy and (sigma_xx - sigma_yy)/2 over the radius of Mohr's circle: no trigonometry. T is double or a SIMD vector.
+/// otherwise, turned back to x and y (20-23). The angle of Eq 21 enters through its double alone, whose sine and cosine
+/// are sigma_xy and (sigma_xx - sigma_yy)/2 over the radius of Mohr's circle: no trigonometry. T is double or a SIMD
+/// vector.
 template <class T>
 [[gnu::always_inline]] inline SymmetricTensor<T> artificial_stress(const SymmetricTensor<T>& stress, const T& density,
-                                                                  double coefficient) {
+                                                                   double coefficient) {
   using std::max;
   using std::sqrt;
   const T mean = T(0.5) * (stress.xx + stress.yy);

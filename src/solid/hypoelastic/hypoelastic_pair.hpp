@@ -20,13 +20,13 @@ struct HypoelasticState {
 /// Sums over the neighbours of a particle.
 template <class T>
 struct HypoelasticRates {
-  T density_rate{0.0};          ///< drho/dt (9), kg/(m3 s)
-  T acceleration_x{0.0};        ///< by stress and viscosity (14), m/s2
+  T density_rate{0.0};    ///< drho/dt (9), kg/(m3 s)
+  T acceleration_x{0.0};  ///< by stress and viscosity (14), m/s2
   T acceleration_y{0.0};
-  T artificial_x{0.0};          ///< by the artificial stress (14, 19), m/s2
+  T artificial_x{0.0};  ///< by the artificial stress (14, 19), m/s2
   T artificial_y{0.0};
-  T dissipation_rate{0.0};      ///< specific heating by Pi, W/kg
-  VelocityGradient<T> gradient; ///< (15, 16), 1/s
+  T dissipation_rate{0.0};       ///< specific heating by Pi, W/kg
+  VelocityGradient<T> gradient;  ///< (15, 16), 1/s
 };
 
 struct HypoelasticPairParameters {
@@ -46,7 +46,9 @@ template <class T>
   const T velocity_x = i.velocity_x - j.velocity_x, velocity_y = i.velocity_y - j.velocity_y;
   const T squared_distance = x * x + y * y;
   const T distance = sqrt(max(squared_distance, T(1e-60)));
-  const T slope = parameters.kernel.slope(distance) / distance;  // grad W = slope x_ij
+  const T density_sum = i.density + j.density;
+  const InversePair<T> inverse(distance, parameters.viscosity.denominator(squared_distance, density_sum));
+  const T slope = parameters.kernel.slope(distance) * inverse.first;  // grad W = slope x_ij
   const T gradient_x = slope * x, gradient_y = slope * y;
   const T velocity_dot_distance = velocity_x * x + velocity_y * y;
   const T velocity_dot_gradient = velocity_dot_distance * slope;
@@ -61,7 +63,7 @@ template <class T>
   rates.gradient.yy -= velocity_y * weighted_y;
 
   // (14): m_j (sigma_i + sigma_j)/(rho_i rho_j) = V_j (sigma_i + sigma_j)/rho_i
-  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, squared_distance, i.density + j.density);
+  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, density_sum, inverse.second);
   const T elastic = j.volume * inverse_density_i;
   const T xx = elastic * (i.stress.xx + j.stress.xx) - viscous;
   const T yy = elastic * (i.stress.yy + j.stress.yy) - viscous;
@@ -75,10 +77,10 @@ template <class T>
   const T squared_f = f * f;
   const T weight = j.mass * (squared_f * squared_f);
   const T artificial_xy = i.artificial_stress.xy + j.artificial_stress.xy;
-  rates.artificial_x += weight * ((i.artificial_stress.xx + j.artificial_stress.xx) * gradient_x +
-                                  artificial_xy * gradient_y);
-  rates.artificial_y += weight * (artificial_xy * gradient_x +
-                                  (i.artificial_stress.yy + j.artificial_stress.yy) * gradient_y);
+  rates.artificial_x +=
+      weight * ((i.artificial_stress.xx + j.artificial_stress.xx) * gradient_x + artificial_xy * gradient_y);
+  rates.artificial_y +=
+      weight * (artificial_xy * gradient_x + (i.artificial_stress.yy + j.artificial_stress.yy) * gradient_y);
 }
 
 }  // namespace sphdrop

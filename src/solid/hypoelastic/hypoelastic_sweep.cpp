@@ -8,7 +8,7 @@ namespace sphdrop {
 
 namespace {
 
-HypoelasticState<Pack> load_state(const SolidParticles& s, std::int64_t row) {
+[[gnu::always_inline]] inline HypoelasticState<Pack> load_state(const SolidParticles& s, std::int64_t row) {
   return {load(s.position.x.data() + row),
           load(s.position.y.data() + row),
           load(s.velocity.x.data() + row),

@@ -13,8 +13,8 @@ namespace sphdrop {
 struct HypoelasticParameters {
   HypoelasticPairParameters pair;
   ElasticMaterial material;
-  double trace_factor = 1.0 / 3.0;            ///< k of Eq 6
-  double artificial_stress_coefficient = 0;   ///< eps of Eq 20
+  double trace_factor = 1.0 / 3.0;           ///< k of Eq 6
+  double artificial_stress_coefficient = 0;  ///< eps of Eq 20
 };
 
 class HypoelasticSweep {
@@ -25,8 +25,8 @@ class HypoelasticSweep {
   void update_stress(SolidParticles& solid, std::span<const RowRange> rows) const;
 
   enum class Blocks { without_ghosts, with_ghosts };
-  /// Sets density_rate, acceleration, deviatoric_stress_rate, dissipation_rate and artificial_stress_power of the rows in
-  /// those blocks that do, or do not, need ghosts.
+  /// Sets density_rate, acceleration, deviatoric_stress_rate, dissipation_rate and artificial_stress_power of the rows
+  /// in those blocks that do, or do not, need ghosts.
   void apply(SolidParticles& solid, const OffsetNeighbours& list, Blocks which) const;
 
  private:

@@ -78,6 +78,31 @@ class DomainPartitionTest : public testing::Test {
     return *std::max_element(load.begin(), load.end()) * size() / sum;
   }
 
+  /// Whoever has a point within reach is named; whoever is named has one at most a cell's diagonal further away.
+  void check_other_ranks(const DomainPartition& partition, const Points& all, const std::vector<int>& owner,
+                         double reach) const {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (owner[i] != rank()) continue;
+      std::vector<int> answer;
+      partition.other_ranks_within(all.x[i], all.y[i], reach, answer);
+      EXPECT_TRUE(std::is_sorted(answer.begin(), answer.end()));
+      EXPECT_EQ(std::adjacent_find(answer.begin(), answer.end()), answer.end());
+      EXPECT_EQ(std::count(answer.begin(), answer.end(), rank()), 0);
+      std::vector<double> nearest(static_cast<std::size_t>(size()), 1e9);
+      for (std::size_t j = 0; j < all.size(); ++j) {
+        double& d = nearest[static_cast<std::size_t>(owner[j])];
+        d = std::min(d, std::hypot(all.x[i] - all.x[j], all.y[i] - all.y[j]));
+      }
+      for (int r = 0; r < size(); ++r) {
+        if (r == rank()) continue;
+        const bool named = std::binary_search(answer.begin(), answer.end(), r);
+        const double distance = nearest[static_cast<std::size_t>(r)];
+        EXPECT_TRUE(named || distance > reach) << r << " at " << distance;
+        EXPECT_TRUE(!named || distance <= reach + 1.5 * cell_size) << r << " at " << distance;
+      }
+    }
+  }
+
   Communicator communicator{MPI_COMM_WORLD};
 };
 
@@ -250,6 +275,7 @@ TEST_F(DomainPartitionTest, FollowsPointsThatMove) {
     holder = owners(partition, all);
     // The granularity of a cell is what remains.
     EXPECT_LE(imbalance(all, holder), 1.6) << step;
+    if (step % 5 == 0) check_other_ranks(partition, all, holder, 0.3);
   }
   if (size() > 1) {
     EXPECT_GT(partition.quality().repartitions, 1);
@@ -262,32 +288,7 @@ TEST_F(DomainPartitionTest, KnowsEveryRankWhoseCellsAreWithinReach) {
   DomainPartition partition(communicator, cell_size, 1.1);
   update(partition, rank() == 0 ? all : Points{});
   const auto owner = owners(partition, all);
-  for (const double reach : {0.15, 0.4, 1.0, 2.7}) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (owner[i] != rank()) continue;
-      std::vector<int> answer;
-      partition.other_ranks_within(all.x[i], all.y[i], reach, answer);
-      EXPECT_TRUE(std::is_sorted(answer.begin(), answer.end()));
-      EXPECT_EQ(std::adjacent_find(answer.begin(), answer.end()), answer.end());
-      EXPECT_EQ(std::count(answer.begin(), answer.end(), rank()), 0);
-      // Whoever has a point within reach is named; whoever is named has one at most a cell's diagonal further away.
-      std::vector<double> nearest(static_cast<std::size_t>(size()), 1e9);
-      for (std::size_t j = 0; j < all.size(); ++j) {
-        double& d = nearest[static_cast<std::size_t>(owner[j])];
-        d = std::min(d, std::hypot(all.x[i] - all.x[j], all.y[i] - all.y[j]));
-      }
-      for (int r = 0; r < size(); ++r) {
-        if (r == rank()) continue;
-        const bool named = std::binary_search(answer.begin(), answer.end(), r);
-        if (nearest[static_cast<std::size_t>(r)] <= reach) {
-          EXPECT_TRUE(named);
-        }
-        if (named) {
-          EXPECT_LE(nearest[static_cast<std::size_t>(r)], reach + 1.5 * cell_size);
-        }
-      }
-    }
-  }
+  for (const double reach : {0.15, 0.4, 1.0, 2.7}) check_other_ranks(partition, all, owner, reach);
 }
 
 TEST_F(DomainPartitionTest, ReportsABadPositionOnAllRanks) {

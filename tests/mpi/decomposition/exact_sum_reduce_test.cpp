@@ -37,14 +37,15 @@ TEST(ExactSumReduce, GivesTheBitsOfOneRankWhoeverHoldsTheTerms) {
   }
 }
 
-TEST(ExactSumReduce, CarriesFullLimbsFirst) {
+TEST(ExactSumReduce, TakesSumsFullOfCarries) {
   const Communicator communicator(MPI_COMM_WORLD);
   const double ones = 2 - DBL_EPSILON;
   std::array<ExactSum, 1> sums;
   sums[0].add(-ones);
-  for (int k = 0; k < 28; ++k) sums[0].add(sums[0]);
+  // One doubling less than what makes the sum carry by itself. Uncarried, 32 ranks of these would overflow.
+  for (int k = 0; k < 27; ++k) sums[0].add(sums[0]);
   ExactSum expected;
-  for (int rank = 0; rank < communicator.size(); ++rank) expected.add(-std::ldexp(ones, 28));
+  for (int rank = 0; rank < communicator.size(); ++rank) expected.add(-std::ldexp(ones, 27));
   ExactSum::reduce(sums, communicator);
   EXPECT_EQ(sums[0].value(), expected.value());
 }

@@ -269,6 +269,9 @@ TEST_F(ExchangePlanTest, MayBeForgottenWhileUnderWay) {
   {
     auto plan = ExchangePlan::from_sends(communicator, {{next, rows}}, 0, 21);
     plan.start(std::array<const void*, 1>{source.data()});
+    auto replaced = ExchangePlan::from_sends(communicator, {{next, rows}}, 0, 23);
+    replaced.start(std::array<const void*, 1>{source.data()});
+    replaced = ExchangePlan();
   }
   auto plan = ExchangePlan::from_sends(communicator, {{next, rows}}, 0, 22);
   std::vector<double> target(source.size(), 0.0);

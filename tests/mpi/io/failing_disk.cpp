@@ -1,5 +1,6 @@
 // A disk that fails, for LD_PRELOAD: on the rank FAILING_RANK, writes to files whose path ends in ".vtkhdf.part" work
-// for FAILING_AFTER bytes and then return EIO (FAILING_MODE=error) or pretend success (FAILING_MODE=silent).
+// for FAILING_AFTER bytes and then return EIO (FAILING_MODE=error), do so once only (FAILING_MODE=transient) or
+// pretend success (FAILING_MODE=silent).
 #include <dlfcn.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 namespace {
 
 std::atomic<long> written = 0;
+std::atomic<bool> failed_once = false;
 
 const char* setting(const char* name) {
   const char* value = std::getenv(name);
@@ -31,8 +33,10 @@ bool concerns(int file) {
 /// What a write of `bytes` returns if it fails; 0 if it is to go ahead.
 ssize_t failure(int file, std::size_t bytes) {
   if (!concerns(file)) return 0;
-  if ((written += static_cast<long>(bytes)) <= std::atol(setting("FAILING_AFTER"))) return 0;
-  if (std::string_view(setting("FAILING_MODE")) == "silent") return static_cast<ssize_t>(bytes);
+  const long beyond = (written += static_cast<long>(bytes)) - std::atol(setting("FAILING_AFTER"));
+  const std::string_view mode = setting("FAILING_MODE");
+  if (beyond <= 0 || (mode == "transient" && failed_once.exchange(true))) return 0;
+  if (mode == "silent") return static_cast<ssize_t>(bytes);
   errno = EIO;
   return -1;
 }

@@ -178,7 +178,7 @@ std::vector<BadCase> bad_cases() {
        with("8e-3", "\"8e-3\""),
        {},
        {{"bad.cfg:10: solid.length must be a number", "leave the quotes out",
-         "allowed: > 0 and <= 100 m, or \"auto\""}}},
+         "allowed: > 0 and <= 1000 m, or \"auto\""}}},
       {"word for a number",
        with("8e-3", "\"long\""),
        {},

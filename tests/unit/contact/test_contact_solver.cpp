@@ -202,16 +202,16 @@ TEST(ContactSolver, GivesTheSameBitsOnAPartOfTheSurface) {
 
 TEST(ContactSolver, ReportsAnOverlapThatIsTooDeep) {
   Scene scene(10, 0, 7);
-  scene.x = {3.5, 4.5, 5.5};
-  scene.y = {9.5 + 0.95, 9.5 + 0.70, 9.5 + 0.90};
-  scene.mass = {1, 1, 1};
+  scene.x = {3.5, 4.5, 5.5, 6.5};
+  scene.y = {9.5 + 0.95, 9.5 + 0.70, 9.5 + 0.90, 9.5 + 0.70};
+  scene.mass = {1, 1, 1, 1};
   for (double& y : scene.vertex_y) y = std::round(y * 2) / 2;  // straight
   scene.clear();
   ContactSolver solver;
   solver.rebuild(scene.x, scene.y, scene.vertex_x, scene.vertex_y, scene.segments, 1.5);
   const ContactSummary summary = solver.apply(scene.particles(), scene.vertices(), parameters);
-  EXPECT_EQ(summary.count, 3);
-  EXPECT_EQ(summary.deepest, 1);
+  EXPECT_EQ(summary.count, 4);
+  EXPECT_EQ(summary.deepest, 1);  // of two equally deep, the lower
   EXPECT_NEAR(summary.largest_overlap, 0.30, 1e-12);
   EXPECT_TRUE(summary.overlap_is_too_deep(parameters));
   EXPECT_FALSE(summary.overlap_is_too_deep({.spring_rate = 1, .contact_distance = 1, .overlap_limit = 0.31}));

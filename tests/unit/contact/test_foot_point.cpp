@@ -157,6 +157,10 @@ TEST(FootPoint, SurvivesCoincidentVertices) {
   const FootPoint on_it = degenerate.nearest({1, 0});
   EXPECT_EQ(on_it.distance, 0.0);
   EXPECT_FALSE(std::isnan(on_it.normal.x + on_it.normal.y));
+  const Boundary begins_with_a_point({{1, 0}, {1, 0}, {2, 0}});
+  const FootPoint on_point = begins_with_a_point.nearest({1, 0});
+  EXPECT_EQ(on_point.distance, 0.0);
+  EXPECT_EQ(on_point.normal, Vector{});
 }
 
 TEST(FootPoint, WithoutCandidatesHasNoSegment) {

@@ -75,8 +75,8 @@ TEST(RingDrop, SpacesParticlesEvenlyOnARing) {
 }
 
 TEST(RingDrop, DoesNotLineUpFromRingToRing) {
-  // No direction in which many rings have a particle: of 20 rings a random one meets about five within a fifth of its
-  // particle's spacing to either side... were they not turned, the x axis would meet all.
+  // A ray meets a particle, to within 0.1 d, of one ring in five; were the rings not turned, the x axis would meet
+  // all 20.
   const DropParticles drop = round_drop_of_rings(radius, d, density);
   for (int direction = 0; direction < 3600; ++direction) {
     const double angle = direction * 2 * pi / 3600;

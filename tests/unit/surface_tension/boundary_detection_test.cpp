@@ -243,5 +243,22 @@ TEST(BoundaryDetection, CheapTestIsNeverMistaken) {
   EXPECT_GT(covered, 300);
 }
 
+TEST(BoundaryDetection, CheapTestHoldsForTheWidestGapsItAccepts) {
+  // Every other octant holds a neighbour, and of two gaps one is nearly three octants wide.
+  const ArcFinder finder(circle_radius);
+  for (const double distance : {0.1, 0.5, 0.76}) {
+    Positions positions = {{0.0, 0.0}};
+    for (const double degrees : {0.1, 134.9, 180.1, 314.9}) {
+      const double angle = degrees * std::numbers::pi / 180.0;
+      positions.push_back(distance * circle_radius * Vector{std::cos(angle), std::sin(angle)});
+    }
+    EXPECT_TRUE(finder.is_covered_by(positions[0], positions));
+    for (int k = 0; k < 720; ++k)
+      EXPECT_GT(depth_of_cover(positions, 0, std::numbers::pi * k / 360, circle_radius), 0.0) << distance << ' ' << k;
+    for (Vector& position : positions) position = (0.8 / distance) * position;
+    EXPECT_FALSE(finder.is_covered_by(positions[0], positions));
+  }
+}
+
 }  // namespace
 }  // namespace sphdrop

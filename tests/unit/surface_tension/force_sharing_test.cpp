@@ -76,7 +76,10 @@ Positions jittered_disc(double radius, unsigned seed) {
 
 TEST(ForceSharing, HasTheBitsOfTheScalarSumOverAllParticles) {
   for (unsigned seed = 0; seed < 8; ++seed) {
-    Drop drop(together(jittered_disc(4.0 + seed, seed), moved(jittered_disc(3.0, seed), {1.0, -2.0})));
+    // The surface of one drop passes through the origin, where an unset position would be; another drop is far away.
+    const double radius = 4.0 + seed;
+    Drop drop(together(moved(jittered_disc(radius, seed), {radius * spacing, 0.0}),
+                       moved(jittered_disc(3.0, seed), {1.0, -2.0})));
     for (std::size_t i = 0; i < drop.x.size(); ++i) drop.acceleration_y[i] = -9.81;  // added to, not overwritten
     Drop expected = drop;
     share_over_all(expected);

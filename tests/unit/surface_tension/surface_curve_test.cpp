@@ -233,5 +233,19 @@ TEST(SurfaceCurve, ReportsMissingArcsAndStillCloses) {
   EXPECT_EQ(static_cast<std::size_t>(curves.curve_start.back()), arcs.size());
 }
 
+TEST(SurfaceCurve, FollowsAnArcOnlyOnce) {
+  const Positions positions = rectangle(6, 6);
+  std::vector<Arc> arcs = arcs_of(positions);
+  const std::size_t rim = arcs.size();
+  arcs.push_back(arcs[4]);
+  Positions centres;
+  for (const Arc& arc : arcs) centres.push_back(positions[static_cast<std::size_t>(arc.particle)]);
+  const SurfaceCurves curves = connect_arcs(arcs, centres, circle_radius);
+  EXPECT_EQ(curves.unmatched_arcs, 1);
+  ASSERT_EQ(curves.size(), 2U);
+  EXPECT_EQ(curves.curve(0).size(), rim);
+  EXPECT_EQ(curves.curve(1).size(), 1U);
+}
+
 }  // namespace
 }  // namespace sphdrop

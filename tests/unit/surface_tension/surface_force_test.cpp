@@ -97,6 +97,21 @@ TEST(Curvature, OfAnEllipseConvergesAndFivePointsDoSoFaster) {
   }
 }
 
+TEST(Curvature, OfThreePointsIsThatOfTheParabolaThroughThem) {
+  // Seen along the chord of its neighbours, the first point has P' = -2/3 and P'' = 2/3.
+  const SurfaceCurves curves = plain_curves({3});
+  const Positions points = {{0.0, 0.0}, {3.0, 1.0}, {-1.0, 1.0}};
+  std::vector<double> curvature(3);
+  Positions forces(3);
+  curvatures(curves, points, 3, curvature);
+  curvature_forces(curves, points, sigma, 3, forces);
+  const double stretch = std::sqrt(1.0 + 4.0 / 9.0);
+  EXPECT_NEAR(curvature[0], 2.0 / 3.0 / (stretch * stretch * stretch), 1e-14);
+  const Vector normal = Vector{2.0 / 3.0, 1.0} / stretch;
+  const double arc_length = 0.5 * (std::sqrt(10.0) + std::sqrt(2.0));
+  EXPECT_LT(length(forces[0] - sigma * curvature[0] * arc_length * normal), 1e-15);
+}
+
 TEST(Curvature, IsNegativeOnABubble) {
   const double radius = 5e-4;
   Positions points = ellipse(radius, radius, 126);
@@ -158,6 +173,10 @@ TEST(CurvatureForce, FallsBackWhereThePointsTurnBack) {
   std::vector<double> curvature(6);
   curvatures(curves, points, 5, curvature);
   EXPECT_NEAR(curvature[3], 2.0, 1e-3);  // the tangent turns by two unit vectors over one unit of length
+
+  Positions slit(points.rbegin(), points.rend());  // the same outline round a hole: the tip is now at 2
+  curvatures(curves, slit, 5, curvature);
+  EXPECT_NEAR(curvature[2], -2.0, 1e-3);
 }
 
 TEST(CurvatureForce, TakesThreeOrFivePoints) {
