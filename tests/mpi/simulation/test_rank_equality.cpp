@@ -1,0 +1,175 @@
+// The same case on all ranks together and on one alone: every particle's state and everything observed must be the same
+// bits, whatever the partition and however often it changes.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "tests/support/whole_state.hpp"
+
+namespace sphdrop {
+namespace {
+
+using test::run_steps;
+using test::WholeState;
+
+struct EqualityCase {
+  const char* name;
+  const char* text;
+  int steps;
+};
+
+// Drops start so near and so fast that they are in full contact within the steps run.
+constexpr const char* cantilever = R"(
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+diameter = 0.6e-3
+velocity = [0.2, -3.0]
+gap = 1e-6
+[solid]
+kind = "cantilever"
+length = 2e-3
+[gravity]
+acceleration = [1.0, -9.81]
+)";
+
+constexpr const char* fixed_fixed = R"(
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+diameter = 0.6e-3
+arrangement = "lattice"
+velocity = [0.0, -3.0]
+gap = 1e-6
+[solid]
+kind = "fixed_fixed_beam"
+length = 2e-3
+artificial_stress_coefficient = 0.0
+deviatoric_trace = "two_dimensional"
+[surface_tension]
+form = "curvature"
+)";
+
+constexpr const char* rigid_wall = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+[drop]
+diameter = 0.8e-3
+velocity = [0.0, -2.0]
+gap = 1e-6
+[solid]
+kind = "rigid_wall"
+[surface_tension]
+form = "curvature"
+polynomial_points = 5
+)";
+
+constexpr const char* oscillating_drop = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+[drop]
+oscillation_velocity = 1.5
+)";
+
+constexpr const char* square_drop = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+[drop]
+shape = "square"
+diameter = 0.6e-3
+)";
+
+constexpr const char* free_vibration = R"(
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 1e-3
+[drop]
+shape = "none"
+[solid]
+kind = "cantilever"
+length = 2e-3
+initial_tip_velocity = 2.0
+)";
+
+// Fewer cells than ranks: some ranks hold nothing.
+constexpr const char* tiny_drop = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+[drop]
+diameter = 0.2e-3
+velocity = [0.0, -1.0]
+)";
+
+class RankEquality : public testing::TestWithParam<EqualityCase> {};
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+void expect_equal(const WholeState& alone, const WholeState& together, const char* what) {
+  EXPECT_EQ(alone.hash, together.hash) << what;
+  ASSERT_EQ(alone.particles.size(), together.particles.size()) << what;
+  for (std::size_t k = 0; k < alone.particles.size(); ++k)
+    ASSERT_EQ(alone.particles[k], together.particles[k]) << what << ": particle " << alone.particles[k].id;
+  ASSERT_EQ(alone.observations.size(), together.observations.size());
+  for (std::size_t k = 0; k < alone.observations.size(); ++k)
+    for (const ObservedQuantity& q : observed_quantities())
+      EXPECT_TRUE(same_bits(alone.observations[k].*q.value, together.observations[k].*q.value))
+          << what << ": " << q.name << " at observation " << k << ": " << alone.observations[k].*q.value << " and "
+          << together.observations[k].*q.value;
+}
+
+TEST_P(RankEquality, AllRanksTogetherGiveWhatOneGivesAlone) {
+  const Communicator world(MPI_COMM_WORLD), self(MPI_COMM_SELF);
+  const EqualityCase& c = GetParam();
+  const WholeState together = run_steps(world, c.text, c.steps);
+  const WholeState restless = run_steps(world, c.text, c.steps, {"parallel.repartition_interval=37"});
+  EXPECT_GT(restless.redistributions, c.steps / 37);
+  if (world.rank() != 0) return;
+  const WholeState alone = run_steps(self, c.text, c.steps);
+  expect_equal(alone, together, "together");
+  expect_equal(alone, restless, "with forced repartitions");
+}
+
+// Lists that reach further hold more pairs out of range, and age longer; neither may show.
+TEST(ListEquality, TheSkinDoesNotMatter) {
+  const Communicator world(MPI_COMM_WORLD);
+  const WholeState thin = run_steps(world, cantilever, 200, {"parallel.skin=0.1"});
+  const WholeState thick = run_steps(world, cantilever, 200, {"parallel.skin=0.7"});
+  EXPECT_GT(thin.redistributions, thick.redistributions);
+  expect_equal(thin, thick, "skin");
+}
+
+TEST(Equality, AnotherCaseHasAnotherHash) {
+  const Communicator world(MPI_COMM_WORLD);
+  const WholeState one = run_steps(world, cantilever, 20);
+  const WholeState other = run_steps(world, cantilever, 20, {"drop.velocity=[0.2, -2.9999999]"});
+  EXPECT_NE(one.hash, other.hash);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, RankEquality,
+                         testing::Values(EqualityCase{"cantilever", cantilever, 400},
+                                         EqualityCase{"fixed_fixed", fixed_fixed, 300},
+                                         EqualityCase{"rigid_wall", rigid_wall, 300},
+                                         EqualityCase{"oscillating_drop", oscillating_drop, 200},
+                                         EqualityCase{"square_drop", square_drop, 150},
+                                         EqualityCase{"free_vibration", free_vibration, 200},
+                                         EqualityCase{"tiny_drop", tiny_drop, 100}),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
+
+}  // namespace
+}  // namespace sphdrop
