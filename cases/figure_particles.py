@@ -176,7 +176,7 @@ def most_spread(snapshots: Sequence[Snapshot]) -> Snapshot:
 
 def draw_picture(snapshot: Snapshot, stress: str) -> Figure:
     liquid, solid = colourings([snapshot], stress)
-    left, right, bottom, top = region([snapshot], longest=5.0)
+    left, right, bottom, top = region([snapshot], longest=7.0)
     bars = [colouring for material, colouring in enumerate((liquid, solid)) if np.any(masks(snapshot)[material])]
     height = 9.0 * (top - bottom) / (right - left)
     figure = plt.figure(figsize=(9.2, height + 1.1), layout="constrained")

@@ -72,11 +72,12 @@ simulate() {
   local launcher
   launcher=$(sed -n 's/^MPIEXEC_EXECUTABLE:[^=]*=//p' "$build/CMakeCache.txt")
   # One machine, shared memory alone: no network is looked for, and copying through the kernel, which containers forbid,
-  # is not tried. Bound to no core, since others may be bound to the same.
+  # is not tried. Bound to no core, since others may be bound to the same; and a rank that waits lets others go first,
+  # without which two ranks on a busy machine crawl.
   local options=(-n "$ranks" --bind-to none --use-hwthread-cpus
-    --mca pml ob1 --mca btl self,vader --mca btl_vader_single_copy_mechanism none)
+    --mca mpi_yield_when_idle 1 --mca pml ob1 --mca btl self,vader --mca btl_vader_single_copy_mechanism none)
   if (($(nproc) < ranks)); then
-    options+=(--oversubscribe --mca mpi_yield_when_idle 1)
+    options+=(--oversubscribe)
   fi
   if ((EUID == 0)); then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

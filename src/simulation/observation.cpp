@@ -162,6 +162,7 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     o.curve_count = numbers[3];
     o.tension_net_force = numbers[4];
     o.surface = simulation.input().surface_tension.coefficient * o.curve_length;
+    o.reconnection = simulation.input().surface_tension.coefficient * tension.reconnected_length();
   }
 }
 
@@ -194,7 +195,7 @@ Observation observe(const Simulation& simulation, double initial_total) {
 
   Observation o{};
   for (const ObservedQuantity& quantity : observed_quantities()) o.*quantity.value = nan;
-  o.surface = o.contact = o.largest_density_error = 0.0;
+  o.surface = o.contact = o.reconnection = o.largest_density_error = 0.0;
   o.time = simulation.time();
   o.step = static_cast<double>(simulation.step());
   o.time_step = simulation.time_step();
@@ -215,7 +216,7 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.artificial_stress_work = sum[solid_artificial];
   o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.contact + o.gravity;
   o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid - o.density_correction - o.artificial_stress_work -
-                  initial_total;
+                  o.reconnection - initial_total;
   o.momentum_fluid_x = sum[fluid_momentum_x];
   o.momentum_fluid_y = sum[fluid_momentum_y];
   o.momentum_solid_x = sum[solid_momentum_x];

@@ -19,7 +19,7 @@ struct Observation {
   double mean_pressure, curve_length, mean_curvature, curvature_scatter, curve_count, tension_net_force;
   double contact_count, contact_force_x, contact_force_y, contact_impulse_x, contact_impulse_y;
   double kinetic_fluid, kinetic_solid, elastic, compressive, surface, contact, gravity;
-  double dissipated_fluid, dissipated_solid, density_correction, artificial_stress_work;
+  double dissipated_fluid, dissipated_solid, density_correction, artificial_stress_work, reconnection;
   double total, unaccounted;
   double momentum_fluid_x, momentum_fluid_y, momentum_solid_x, momentum_solid_y;
   double angular_momentum_fluid, angular_momentum_solid;

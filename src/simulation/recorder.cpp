@@ -216,6 +216,7 @@ RunSummary Recorder::summary() const {
       term("surface", &Observation::surface);
       term("dissipated, drop", &Observation::dissipated_fluid);
       term("density correction", &Observation::density_correction, -1.0);
+      term("curve reconnection", &Observation::reconnection, -1.0);
     }
     if (is_beam) {
       term("kinetic, beam", &Observation::kinetic_solid);

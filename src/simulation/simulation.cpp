@@ -225,7 +225,7 @@ void Simulation::redistribute_if_due(double largest_squared_displacement) {
     std::fill(solid_.density.data() + range.begin, solid_.density.data() + range.end, case_.solid.density);
   solid_sweep_.update_stress(solid_, solid_.ghosts);
   contact_.regather(fluid_, solid_, parameters_.range);
-  if (surface_tension_.is_enabled() && !detection_is_due_) surface_tension_.regather(fluid_);
+  if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_);
   is_distributed_ = true;
   ++redistributions_;
   timer_.lap(Phase::redistribution);

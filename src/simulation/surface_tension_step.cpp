@@ -23,9 +23,38 @@ SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const C
       finder_(support_) {}
 
 void SurfaceTensionStep::detect(FluidParticles& fluid, Distribution& distribution) {
+  double old_length = 0;
+  if (has_curves_) {
+    gather_points(fluid);
+    old_length = length_on_all_ranks();
+  }
   fluid.for_each_owned([&](std::size_t row) { fluid.detection_position.set(row, fluid.position.at(row)); });
   find_arcs(fluid, distribution);
   regather(fluid);
+  if (has_curves_) reconnected_length_ += length_on_all_ranks() - old_length;
+  has_curves_ = true;
+}
+
+// The present surface points at the owner, on the curves of the last detection.
+void SurfaceTensionStep::gather_points(const FluidParticles& fluid) {
+  start(fluid);
+  gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
+  update_points();
+}
+
+double SurfaceTensionStep::length_on_all_ranks() const {
+  std::vector<double> length;
+  if (owner() == communicator_.rank()) length = {total_length(curves_, points_)};
+  communicator_.broadcast(length, owner());
+  return length[0];
+}
+
+void SurfaceTensionStep::update_points() {
+  for (std::size_t k = 0; k < node_particle_.size(); ++k) {
+    const auto index = static_cast<std::size_t>(node_particle_[k]);
+    node_positions_[k] = {x_[index], y_[index]};
+  }
+  surface_points(curves_, node_positions_, spacing_, points_);
 }
 
 void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribution) {
@@ -127,6 +156,10 @@ void SurfaceTensionStep::regather(const FluidParticles& fluid) {
                                                   fluid.mass.data()});
   gather_.finish_gather(std::array<void*, 3>{x_.data(), y_.data(), mass_.data()});
   curves_ = {};
+  node_particle_.clear();
+  node_positions_.clear();
+  points_.clear();
+  forces_.clear();
   if (owner != communicator_.rank()) return;
 
   curves_ = connect_arcs(arcs_, arc_centres_, support_);
@@ -151,11 +184,7 @@ void SurfaceTensionStep::start(const FluidParticles& fluid) {
 void SurfaceTensionStep::work() {
   gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
   if (owner() == communicator_.rank()) {
-    for (std::size_t k = 0; k < node_particle_.size(); ++k) {
-      const auto index = static_cast<std::size_t>(node_particle_[k]);
-      node_positions_[k] = {x_[index], y_[index]};
-    }
-    surface_points(curves_, node_positions_, spacing_, points_);
+    update_points();
     if (form_ == SurfaceTensionForm::conservative)
       conservative_forces(curves_, points_, coefficient_, forces_);
     else

@@ -48,11 +48,17 @@ class SurfaceTensionStep {
   void finish(FluidParticles& fluid);
 
   int owner() const { return gather_.owner(); }
+  /// Length of curve that came or went at once as the surface was detected anew, so far, m: no force did that work. The
+  /// same on every rank.
+  double reconnected_length() const { return reconnected_length_; }
   /// At the owner, of the instant last worked on.
   SurfaceReport report() const;
 
  private:
   void find_arcs(FluidParticles& fluid, Distribution& distribution);
+  void update_points();
+  void gather_points(const FluidParticles& fluid);
+  double length_on_all_ranks() const;
 
   const Communicator& communicator_;
   CubicSpline kernel_;
@@ -64,6 +70,9 @@ class SurfaceTensionStep {
   // On every rank: the arcs of the last detection and where their particles were.
   std::vector<Arc> arcs_;
   std::vector<Vector> arc_centres_;
+
+  bool has_curves_ = false;
+  double reconnected_length_ = 0;
 
   // This rank's part of the band, and what comes back for it.
   InterfaceGather gather_;

@@ -45,8 +45,9 @@ void gather_state(const Communicator& communicator, const Set& set, std::vector<
   const auto all_ids = communicator.all_gather(std::span<const std::int64_t>(ids));
   const auto all_words = communicator.all_gather(std::span<const std::uint64_t>(words));
   for (std::size_t k = 0; k < all_ids.size(); ++k)
-    all.push_back({all_ids[k], {all_words.begin() + static_cast<std::ptrdiff_t>(k * columns),
-                                all_words.begin() + static_cast<std::ptrdiff_t>((k + 1) * columns)}});
+    all.push_back({all_ids[k],
+                   {all_words.begin() + static_cast<std::ptrdiff_t>(k * columns),
+                    all_words.begin() + static_cast<std::ptrdiff_t>((k + 1) * columns)}});
 }
 
 /// Collective over `communicator`.

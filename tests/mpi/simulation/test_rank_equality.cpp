@@ -118,7 +118,9 @@ velocity = [0.0, -1.0]
 
 class RankEquality : public testing::TestWithParam<EqualityCase> {};
 
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
 void expect_equal(const WholeState& alone, const WholeState& together, const char* what) {
   EXPECT_EQ(alone.hash, together.hash) << what;

@@ -35,9 +35,13 @@ std::string message_of(const std::vector<std::string>& overrides, int steps) {
   return message;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
-TEST(Safety, ASoundRunIsNotStopped) { EXPECT_EQ(message_of({}, 100), ""); }
+TEST(Safety, ASoundRunIsNotStopped) {
+  EXPECT_EQ(message_of({}, 100), "");
+}
 
 TEST(Safety, AParticleTooFastIsNamed) {
   const std::string message = message_of({"safety.speed_limit=1.9"}, 10);
@@ -63,7 +67,8 @@ TEST(Safety, ADeepOverlapIsNamed) {
 }
 
 TEST(Safety, AParticleThatLeavesTheDomainIsNamed) {
-  const std::string message = message_of({"safety.domain_margin=1e-5", "drop.velocity=[3.0, 0.0]", "solid.kind=none"}, 4000);
+  const std::string message =
+      message_of({"safety.domain_margin=1e-5", "drop.velocity=[3.0, 0.0]", "solid.kind=none"}, 4000);
   EXPECT_TRUE(contains(message, "left the domain")) << message;
 }
 
