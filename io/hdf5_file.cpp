@@ -7,39 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
-#include <vector>
+
+#include "io/hdf5_call.hpp"
 
 namespace sphdrop {
 namespace {
-
-/// The innermost entry of HDF5's error stack says what went wrong; for I/O errors it holds dates, addresses and, what
-/// is wanted, the system's message.
-herr_t keep_innermost(unsigned, const H5E_error2_t* entry, void* kept) {
-  std::string& text = *static_cast<std::string*>(kept);
-  text = entry->desc != nullptr ? entry->desc : "no reason given";
-  constexpr std::string_view label = "error message = '";
-  const std::size_t message = text.find(label);
-  if (message != std::string::npos) {
-    const std::size_t start = message + label.size();
-    text = text.substr(start, text.find('\'', start) - start);
-  }
-  text += fmt::format(" (in {})", entry->func_name);
-  return 0;
-}
-
-std::string hdf5_error_text() {
-  std::string text;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &text);
-  H5Eclear2(H5E_DEFAULT);
-  return text.empty() ? "no reason given" : text;
-}
-
-/// Passes on what an HDF5 call returned; negative values mean failure.
-template <class Result>
-Result checked(Result result, const char* call, const std::string& what) {
-  if (result < 0) throw Hdf5Error(fmt::format("{}: {} failed: {}", what, call, hdf5_error_text()));
-  return result;
-}
 
 void silence_error_printing() {
   static const herr_t once = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -76,12 +48,6 @@ hid_t memory_type_of(Hdf5Type type) {
       return H5T_NATIVE_UINT8;
   }
   std::abort();
-}
-
-Hdf5Handle dataspace(std::int64_t rows, int components, const std::string& what) {
-  const std::array<hsize_t, 2> sizes = {static_cast<hsize_t>(rows), static_cast<hsize_t>(components)};
-  return {checked(H5Screate_simple(components == 1 ? 1 : 2, sizes.data(), nullptr), "H5Screate_simple", what),
-          H5Sclose};
 }
 
 }  // namespace
@@ -231,81 +197,6 @@ Hdf5Dataset Hdf5File::open_dataset(const std::string& name, Hdf5Type type) const
   std::array<hsize_t, 2> sizes = {0, 1};
   checked(H5Sget_simple_extent_dims(space.get(), sizes.data(), nullptr), "H5Sget_simple_extent_dims", what);
   return {what, std::move(dataset), type, static_cast<std::int64_t>(sizes[0]), static_cast<int>(sizes[1])};
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, hid_t file_type, hid_t memory_type,
-                               hid_t space, const void* value) {
-  const std::string what = fmt::format("{}, attribute {}", describe(object), name);
-  const Hdf5Handle attribute(checked(H5Acreate_by_name(file_.get(), object.c_str(), name.c_str(), file_type, space,
-                                                       H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                                     "H5Acreate", what),
-                             H5Aclose);
-  checked(H5Awrite(attribute.get(), memory_type, value), "H5Awrite", what);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, double value) {
-  const Hdf5Handle scalar(checked(H5Screate(H5S_SCALAR), "H5Screate", describe(object)), H5Sclose);
-  write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, scalar.get(), &value);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               std::span<const std::int64_t> values) {
-  const Hdf5Handle space = dataspace(std::ssize(values), 1, describe(object));
-  write_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, space.get(), values.data());
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, std::int64_t value) {
-  const Hdf5Handle scalar(checked(H5Screate(H5S_SCALAR), "H5Screate", describe(object)), H5Sclose);
-  write_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, scalar.get(), &value);
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, std::string_view text) {
-  const std::string what = describe(object);
-  const Hdf5Handle type(checked(H5Tcopy(H5T_C_S1), "H5Tcopy", what), H5Tclose);
-  // HDF5 has no strings of length zero; a single null byte reads back as the empty one.
-  const std::string padded = text.empty() ? std::string(1, '\0') : std::string(text);
-  checked(H5Tset_size(type.get(), padded.size()), "H5Tset_size", what);
-  checked(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), "H5Tset_strpad", what);
-  if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; })) {
-    checked(H5Tset_cset(type.get(), H5T_CSET_UTF8), "H5Tset_cset", what);
-  }
-  const Hdf5Handle scalar(checked(H5Screate(H5S_SCALAR), "H5Screate", what), H5Sclose);
-  write_attribute(object, name, type.get(), type.get(), scalar.get(), padded.data());
-}
-
-Hdf5Handle Hdf5File::open_attribute(const std::string& object, const std::string& name) const {
-  const std::string what = fmt::format("{}, attribute {}", describe(object), name);
-  Hdf5Handle attribute(
-      checked(H5Aopen_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "H5Aopen", what),
-      H5Aclose);
-  const Hdf5Handle space(checked(H5Aget_space(attribute.get()), "H5Aget_space", what), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space.get()) != 1) throw Hdf5Error(what + ": holds more than one value");
-  return attribute;
-}
-
-double Hdf5File::read_real_attribute(const std::string& object, const std::string& name) const {
-  double value = 0;
-  checked(H5Aread(open_attribute(object, name).get(), H5T_NATIVE_DOUBLE, &value), "H5Aread", describe(object));
-  return value;
-}
-
-std::int64_t Hdf5File::read_integer_attribute(const std::string& object, const std::string& name) const {
-  std::int64_t value = 0;
-  checked(H5Aread(open_attribute(object, name).get(), H5T_NATIVE_INT64, &value), "H5Aread", describe(object));
-  return value;
-}
-
-std::string Hdf5File::read_text_attribute(const std::string& object, const std::string& name) const {
-  const Hdf5Handle attribute = open_attribute(object, name);
-  const Hdf5Handle type(checked(H5Aget_type(attribute.get()), "H5Aget_type", describe(object)), H5Tclose);
-  if (H5Tget_class(type.get()) != H5T_STRING ||
-      checked(H5Tis_variable_str(type.get()), "H5Tis_variable_str", name) > 0) {
-    throw Hdf5Error(fmt::format("{}, attribute {}: not a string of fixed length", describe(object), name));
-  }
-  std::string text(H5Tget_size(type.get()), '\0');
-  checked(H5Aread(attribute.get(), type.get(), text.data()), "H5Aread", describe(object));
-  text.resize(std::min(text.size(), text.find('\0')));
-  return text;
 }
 
 }  // namespace sphdrop

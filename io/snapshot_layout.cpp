@@ -118,6 +118,7 @@ std::vector<SnapshotDataset> lay_out_snapshot(const Communicator& communicator, 
   // Integers travel as the 8 bytes of a double: nothing looks at them as a number on the way.
   std::vector<std::vector<double>> sorted(sources.size(), std::vector<double>(n));
   std::vector<void*> targets;
+  targets.reserve(sorted.size());
   for (auto& column : sorted) targets.push_back(column.data());
   by_id.redistribute(sources, targets);
 

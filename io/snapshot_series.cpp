@@ -52,7 +52,7 @@ SnapshotSeries::SnapshotSeries(const Communicator& communicator, std::filesystem
 std::filesystem::path SnapshotSeries::write(const SnapshotHeader& header, const SnapshotRows& rows,
                                             std::span<const SnapshotColumn> columns) {
   const auto later = std::lower_bound(times_.begin(), times_.end(), header.time);
-  const auto path = directory_ / snapshot_file_name(later - times_.begin());
+  auto path = directory_ / snapshot_file_name(later - times_.begin());
   write_snapshot(communicator_, path, header, rows, columns);
   times_.erase(later, times_.end());
   times_.push_back(header.time);

@@ -50,13 +50,18 @@ trap 'exit 143' TERM
 
 # A build folder that was copied or moved along with the sources still names the old ones.
 is_configured() {
-  [[ -f $build/build.ninja ]] && grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"
+  [[ -f $build/build.ninja && -f $build/CMakeCache.txt ]] &&
+    grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"
 }
 
 build_program() {
   cd "$root"
   # A tree already configured, perhaps with its tests, stays as it is and is brought up to date by the build itself.
-  is_configured || cmake --preset release --fresh -DSPHDROP_TESTS=OFF
+  if ! is_configured; then
+    # Were this to fail half-way, an old build.ninja would pass for a configured tree the next time.
+    rm -f "$build/build.ninja"
+    cmake --preset release --fresh -DSPHDROP_TESTS=OFF
+  fi
   cmake --build --preset release --target sphdrop --parallel "$(nproc)"
 }
 
@@ -112,13 +117,17 @@ fi
 announce 'Drawing the figures'
 draw_figures
 
-mapfile -t pictures < <(find "$results" -name '*.png' | sort)
-if ((${#pictures[@]} == 0)); then
-  printf 'No picture was drawn in %s.\n' "$results" >&2
-  exit 1
-fi
+for file in history.csv snapshots.vtkhdf.series picture.png strip.png history.png; do
+  if [[ ! -s $results/$file ]]; then
+    printf '%s is missing.\n' "$results/$file" >&2
+    exit 1
+  fi
+done
 
-printf '\nDone.\n'
-printf '  history, a table of text  %s\n' "$results/history.csv"
-printf '  for ParaView              %s\n' "$results/snapshots.vtkhdf.series"
-printf '  picture                   %s\n' "${pictures[@]}"
+printf '\nDone. The results are in %s:\n' "$results"
+printf '  %-24s %s\n' \
+  history.csv 'history: width of the drop, deflection of the beam, energies, ... over time' \
+  snapshots.vtkhdf.series 'all particles over time, for ParaView: File, Open' \
+  picture.png 'the widest drop on the bent beam' \
+  strip.png 'the impact from beginning to end' \
+  history.png 'the history, drawn'

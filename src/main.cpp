@@ -60,6 +60,24 @@ bool someone_watches_stderr() {
   return !unknown && target.string().starts_with("/dev/pts/");
 }
 
+// A run starts with an empty folder: snapshots of an earlier, longer run would mix with its own.
+void remove_earlier_results(const Communicator& communicator, const std::filesystem::path& directory) {
+  std::string error;
+  if (communicator.rank() == 0) {
+    try {
+      const std::vector<std::filesystem::path> files = results_in(directory);
+      for (const std::filesystem::path& file : files) std::filesystem::remove(file);
+      if (!files.empty())
+        fmt::print(stderr, "note: replacing the {} result files of an earlier run in {}\n", files.size(),
+                   directory.string());
+    } catch (const std::exception& e) {
+      error = e.what();
+    }
+  }
+  communicator.broadcast(error, 0);
+  if (!error.empty()) throw OutputDirectoryError(error);
+}
+
 void write_effective_case(const Communicator& communicator, const std::filesystem::path& directory, const Case& input) {
   std::string error;
   if (communicator.rank() == 0) {
@@ -86,6 +104,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
 
   const std::filesystem::path directory = input.output.directory;
   prepare_output_directory(communicator, directory);
+  remove_earlier_results(communicator, directory);
   write_effective_case(communicator, directory, input);
   RunRecord record(communicator, arguments);
   record.write(directory);

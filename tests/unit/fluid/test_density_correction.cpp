@@ -17,15 +17,16 @@ constexpr double reach = 2 * test::smoothing_length + 0.4 * spacing;
 
 std::vector<double> corrected(FluidParticles& fluid) {
   const auto rows = static_cast<std::int32_t>(fluid.size());
-  const SlicedNeighbours list =
-      SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {0, rows}, reach);
+  const SlicedNeighbours list = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {0, rows}, reach);
   std::vector<double> result(fluid.size() + column_padding, -1.0);
   moving_least_squares_densities(fluid, list, kernel, spacing, result);
   return result;
 }
 
 /// rho(x, y), changing by some per cent from one particle to the next: far more than any run shows.
-double linear_field(Vector p) { return 1000.0 * (1.0 + 0.03 * p.x / spacing - 0.05 * p.y / spacing); }
+double linear_field(Vector p) {
+  return 1000.0 * (1.0 + 0.03 * p.x / spacing - 0.05 * p.y / spacing);
+}
 
 void place(FluidParticles& fluid, const std::vector<Vector>& positions, double (*density)(Vector)) {
   test::RandomNumbers random(30);
@@ -66,7 +67,8 @@ TEST(DensityCorrection, ReproducesAConstantFieldInAStripOneParticleThick) {
   for (int k = 0; k < 20; ++k) line.push_back({k * spacing, 2 * k * spacing * 1e-9});
   FluidParticles fluid;
   place(fluid, line, [](Vector) { return 997.0; });
-  expect_reproduced(fluid, [](Vector) { return 997.0; }, 1e-13);
+  expect_reproduced(
+      fluid, [](Vector) { return 997.0; }, 1e-13);
 }
 
 // Shepard's sum by hand: m_j W_j over V_j W_j.

@@ -28,7 +28,8 @@ TEST(ElasticMaterial, ModuliBelongTogether) {
     EXPECT_NEAR(9 * k * g / (3 * k + g), 2e6, 1e-7);              // E
     EXPECT_NEAR((3 * k - 2 * g) / (2 * (3 * k + g)), nu, 1e-14);  // nu
     EXPECT_GE(m.longitudinal_wave_speed(), m.sound_speed());
-    EXPECT_NEAR(800 * m.longitudinal_wave_speed() * m.longitudinal_wave_speed(), 2e6 * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
+    EXPECT_NEAR(800 * m.longitudinal_wave_speed() * m.longitudinal_wave_speed(),
+                2e6 * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
                 1e-6);  // the constrained modulus
   }
 }

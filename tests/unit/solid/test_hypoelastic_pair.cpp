@@ -25,8 +25,15 @@ Rates rates_of(const HypoelasticPairParameters& p, const State& i, const State& 
 }
 
 State random_state(test::RandomNumbers& random) {
-  State s{random.between(0, 1.2 * h), random.between(0, 1.2 * h),    random.between(-1, 1), random.between(-1, 1),
-          random.between(980, 1020),  random.between(5e-7, 8e-7), 0};
+  State s{.x = random.between(0, 1.2 * h),
+          .y = random.between(0, 1.2 * h),
+          .velocity_x = random.between(-1, 1),
+          .velocity_y = random.between(-1, 1),
+          .density = random.between(980, 1020),
+          .mass = random.between(5e-7, 8e-7),
+          .volume = 0,
+          .stress = {},
+          .artificial_stress = {}};
   s.volume = s.mass / s.density;
   for (double* value : {&s.stress.xx, &s.stress.yy, &s.stress.xy}) *value = random.between(-1e6, 1e6);
   for (double* value : {&s.artificial_stress.xx, &s.artificial_stress.yy, &s.artificial_stress.xy})

@@ -20,7 +20,9 @@ Tensor turned(const Tensor& t, double angle) {
 }
 
 /// v = omega x r, counterclockwise.
-Gradient rotation(double omega) { return {.xx = 0, .xy = -omega, .yx = omega, .yy = 0}; }
+Gradient rotation(double omega) {
+  return {.xx = 0, .xy = -omega, .yx = omega, .yy = 0};
+}
 
 TEST(JaumannRate, RigidRotationOnlyTurnsTheStress) {
   test::RandomNumbers random(40);
