@@ -228,8 +228,8 @@ class Run:
 
     @property
     def case_text(self) -> str:
-        """The case as it was run, every parameter included (case.toml)."""
-        path = self.directory / "case.toml"
+        """The case as it was run, every parameter included (case.cfg)."""
+        path = self.directory / "case.cfg"
         try:
             return path.read_text(encoding="utf-8")
         except OSError as error:

@@ -313,7 +313,7 @@ TEST_F(Snapshot, OutputDirectoryIsRefusedOnAllRanksAlike) {
 }
 
 TEST_F(Snapshot, RunRecordSaysWhatIsKnown) {
-  RunRecord record(world_, {"sphdrop", "a \"quoted\" case.toml"});
+  RunRecord record(world_, {"sphdrop", "a \"quoted\" case.cfg"});
   record.write(directory_);
   world_.barrier();
   EXPECT_NE(bytes_of(directory_ / "run.json").find("\"status\": \"running\""), std::string::npos);
@@ -325,7 +325,7 @@ TEST_F(Snapshot, RunRecordSaysWhatIsKnown) {
   const std::string text = bytes_of(directory_ / "run.json");
   for (const std::string& part :
        {std::string("\"status\": \"completed\""), std::string("\"state_hash\": \"000000000000fedc\""),
-        std::string(R"("command_line": ["sphdrop", "a \"quoted\" case.toml"])"), std::string("\"repartitions\": 3"),
+        std::string(R"("command_line": ["sphdrop", "a \"quoted\" case.cfg"])"), std::string("\"repartitions\": 3"),
         "\"ranks\": " + std::to_string(world_.size()), std::string("\"mpi\": \"Open MPI"),
         std::string("\"wall_time_seconds\": "), "\"version\": \"" + build_info().version + "\""}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;

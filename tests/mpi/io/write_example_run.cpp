@@ -47,7 +47,7 @@ void write_run(const Communicator& world, const std::filesystem::path& directory
     auto history = HistoryWriter::create(directory, {{"time", "s", "simulated time"}, {"drop_width", "m", "D(t)"}});
     for (int row = 0; row < 5; ++row) history.append(std::array{row * 5e-5, 1e-3 + row / 3e6});
     history.close();
-    std::ofstream(directory / "case.toml") << "name = \"example\"\n";
+    std::ofstream(directory / "case.cfg") << "name = \"example\"\n";
   }
   record.set("particles", total);
   record.finish("completed", 0xfeedbeef00000002ULL);

@@ -82,7 +82,7 @@ def write_run(directory: Path, snapshots: int = 9, parts: Iterable[str] = ("drop
         files.append({"name": name, "time": phase * END})
     (directory / "snapshots.vtkhdf.series").write_text(json.dumps({"file-series-version": "1.0", "files": files}))
     (directory / "run.json").write_text('{"status": "completed"}')
-    (directory / "case.toml").write_text('name = "synthetic"\n')
+    (directory / "case.cfg").write_text('name = "synthetic"\n')
     if not with_history:
         return
     phase = np.linspace(0, 1, 200)

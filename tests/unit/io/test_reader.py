@@ -95,8 +95,8 @@ class Reader(unittest.TestCase):
         (self.directory / "run.json").write_text("{")
         with self.assertRaisesRegex(ResultError, "run.json: is not JSON"):
             run.info
-        (self.directory / "case.toml").unlink()
-        with self.assertRaisesRegex(ResultError, "case.toml: cannot be read"):
+        (self.directory / "case.cfg").unlink()
+        with self.assertRaisesRegex(ResultError, "case.cfg: cannot be read"):
             run.case_text
 
     def test_directories_without_results(self) -> None:

@@ -1,13 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "particles/pack.hpp"
 #include "solid/hypoelastic/artificial_stress.hpp"
 #include "tests/support/random_numbers.hpp"
-#include "tests/support/same_bits.hpp"
 
 namespace sphdrop {
 namespace {
@@ -102,31 +99,6 @@ TEST(ArtificialStress, TinyAndHugeStressesStayFinite) {
       EXPECT_TRUE(std::isfinite(r.xx) && std::isfinite(r.yy) && std::isfinite(r.xy)) << scale;
       EXPECT_LE(std::abs(r.xx) + std::abs(r.yy) + std::abs(r.xy), 10 * scale) << scale;
     }
-}
-
-[[gnu::noinline]] SymmetricTensor<Pack> of_pack(const SymmetricTensor<Pack>& stress, const Pack& density) {
-  return artificial_stress(stress, density, coefficient);
-}
-
-TEST(ArtificialStress, PacksEqualScalarsBitForBit) {
-  test::RandomNumbers random(51);
-  for (int k = 0; k < 500; ++k) {
-    std::array<double, pack_size> xx, yy, xy, density;
-    for (std::size_t lane = 0; lane < pack_size; ++lane) {
-      xx[lane] = random.between(-1e6, 1e6);
-      yy[lane] = random.between(-1e6, 1e6);
-      xy[lane] = random.between(-1e6, 1e6);
-      density[lane] = random.between(900, 1100);
-    }
-    const SymmetricTensor<Pack> pack =
-        of_pack({load(xx.data()), load(yy.data()), load(xy.data())}, load(density.data()));
-    for (std::size_t lane = 0; lane < pack_size; ++lane) {
-      const Tensor scalar = artificial_stress(Tensor{xx[lane], yy[lane], xy[lane]}, density[lane], coefficient);
-      EXPECT_TRUE(test::same_bits(pack.xx[lane], scalar.xx));
-      EXPECT_TRUE(test::same_bits(pack.yy[lane], scalar.yy));
-      EXPECT_TRUE(test::same_bits(pack.xy[lane], scalar.xy));
-    }
-  }
 }
 
 }  // namespace
