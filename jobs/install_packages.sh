@@ -66,6 +66,8 @@ if ((EUID != 0)); then
   as_root=(sudo)
   # Without a terminal a question for a password would never be answered.
   [[ -t 0 ]] || as_root+=(--non-interactive)
+  "${as_root[@]}" true || fail "installing packages takes root, and sudo refuses it. Have an administrator run:
+  apt-get install --no-install-recommends ${missing[*]}"
 fi
 
 apt() {

@@ -1,0 +1,174 @@
+"""The program as its users meet it: command line, exit codes, files, the same bytes from any number of ranks."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "io"))
+from sphdrop_reader import Run  # noqa: E402
+
+PROGRAM = os.environ["SPHDROP_PROGRAM"]
+MPIEXEC = os.environ["SPHDROP_MPIEXEC"]
+
+CASE = """
+name = "little"
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 8e-6
+sound_cfl = 0.3
+[drop]
+diameter = 0.6e-3
+velocity = [0.2, -3.0]
+gap = 1e-6
+[solid]
+kind = "cantilever"
+length = 2e-3
+[output]
+snapshot_interval = 4e-6
+history_interval = 1e-6
+"""
+
+
+def run(*arguments: str | Path, ranks: int = 1, directory: Path | None = None) -> subprocess.CompletedProcess[str]:
+    command = ["timeout", "-k", "5", "60", MPIEXEC, "-n", str(ranks), PROGRAM, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, cwd=directory, check=False)
+
+
+def state_hash(result: subprocess.CompletedProcess[str]) -> str:
+    found = re.findall(r"^state hash ([0-9a-f]{16})$", result.stdout, flags=re.MULTILINE)
+    if len(found) != 1:
+        raise AssertionError(f"no single hash in:\n{result.stdout}\n{result.stderr}")
+    return found[0]
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.directory = Path(tempfile.mkdtemp(prefix="sphdrop-"))
+        self.addCleanup(shutil.rmtree, self.directory)
+        self.case = self.directory / "little.cfg"
+        self.case.write_text(CASE)
+
+
+class Results(ProgramTest):
+    def test_every_number_of_ranks_writes_the_same_bytes(self) -> None:
+        hashes = set()
+        for ranks in (1, 2, 3):
+            result = run(self.case, "--output", self.directory / str(ranks), ranks=ranks)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            hashes.add(state_hash(result))
+        self.assertEqual(len(hashes), 1)
+        files = sorted(path.name for path in (self.directory / "1").iterdir())
+        self.assertEqual(
+            [name for name in files if name.startswith("snapshot_")],
+            ["snapshot_000000.vtkhdf", "snapshot_000001.vtkhdf", "snapshot_000002.vtkhdf"],
+        )
+        for name in set(files) - {"run.json", "case.cfg"}:
+            alone = (self.directory / "1" / name).read_bytes()
+            for ranks in ("2", "3"):
+                self.assertEqual(alone, (self.directory / ranks / name).read_bytes(), f"{name} on {ranks} ranks")
+
+    def test_the_hash_is_the_last_snapshots(self) -> None:
+        result = run(self.case, "--output", self.directory / "out", ranks=2)
+        results = Run(self.directory / "out")
+        self.assertEqual(results.snapshots[-1].state_hash, state_hash(result))
+        self.assertGreaterEqual(results.snapshots[-1].time, 8e-6)
+        self.assertEqual(results.history["time"][0], 0.0)
+        self.assertEqual(results.history["time"][-1], results.snapshots[-1].time)
+
+    def test_the_effective_case_runs_to_the_same_bits(self) -> None:
+        first = run(self.case, "--output", self.directory / "first", "--set", "drop.velocity=[0.1, -2.5]")
+        effective = self.directory / "effective.cfg"
+        shutil.copy(self.directory / "first" / "case.cfg", effective)
+        second = run(effective, "--output", self.directory / "second")
+        self.assertEqual(state_hash(first), state_hash(second))
+        unchanged = run(self.case, "--output", self.directory / "third")
+        self.assertNotEqual(state_hash(first), state_hash(unchanged))
+
+    def test_until_stops_earlier_on_the_same_path(self) -> None:
+        whole = run(self.case, "--output", self.directory / "whole")
+        self.assertEqual(whole.returncode, 0)
+        part = run(self.case, "--output", self.directory / "part", "--until", "4e-6")
+        self.assertEqual(part.returncode, 0)
+        rows = (self.directory / "part" / "history.csv").read_text().splitlines()
+        all_rows = (self.directory / "whole" / "history.csv").read_text().splitlines()
+        self.assertLess(len(rows), len(all_rows))
+        self.assertEqual(rows, all_rows[: len(rows)])
+        self.assertEqual(
+            (self.directory / "part" / "snapshot_000001.vtkhdf").read_bytes(),
+            (self.directory / "whole" / "snapshot_000001.vtkhdf").read_bytes(),
+        )
+
+    def test_results_of_an_earlier_run_are_replaced(self) -> None:
+        run(self.case, "--output", self.directory / "out")
+        result = run(self.case, "--output", self.directory / "out", "--until", "1e-6")
+        self.assertIn("replacing", result.stderr)
+        self.assertEqual(len(Run(self.directory / "out").snapshots), 2)
+        self.assertFalse((self.directory / "out" / "snapshot_000002.vtkhdf").exists())
+
+    def test_the_summary_says_what_happened(self) -> None:
+        result = run(self.case, "--output", self.directory / "out", ranks=2)
+        for part in ("contact", "largest deflection", "momentum ledger", "energy ledger", "wall time", "2 ranks"):
+            self.assertIn(part, result.stdout)
+
+
+class Checking(ProgramTest):
+    def test_check_reports_and_writes_nothing(self) -> None:
+        before = sorted(self.directory.iterdir())
+        result = run("--check", self.case, ranks=2, directory=self.directory)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for part in ("particles", "time step", "steps", "memory", "expected wall time", "partition", "Weber number"):
+            self.assertIn(part, result.stdout)
+        self.assertEqual(before, sorted(self.directory.iterdir()))
+
+    def test_questions_are_answered_once(self) -> None:
+        for option, part in (("--help", "--check"), ("--version", "sphdrop"), ("--list-parameters", "drop.diameter")):
+            result = run(option, ranks=3)
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(result.stdout.count(part), run(option).stdout.count(part))
+            self.assertGreater(result.stdout.count(part), 0)
+
+
+class Mistakes(ProgramTest):
+    def expect_refusal(self, result: subprocess.CompletedProcess[str], code: int, *parts: str) -> None:
+        self.assertEqual(result.returncode, code, result.stderr)
+        for part in parts:
+            self.assertEqual(result.stderr.count(part), 1, f"{part!r} is not said once in:\n{result.stderr}")
+
+    def test_in_the_case(self) -> None:
+        self.case.write_text(CASE.replace("diameter = 0.6e-3", "diametre = 0.6e-3"))
+        for ranks in (1, 3):
+            result = run(self.case, ranks=ranks)
+            self.expect_refusal(result, 2, "little.cfg:9: ", "drop.diametre", "drop.diameter")
+
+    def test_in_the_command_line(self) -> None:
+        self.expect_refusal(run("--chekc", self.case, ranks=3), 2, "--chekc")
+        self.expect_refusal(run(self.case, "--set", "drop.gap=-1", ranks=3), 2, "--set drop.gap=-1")
+
+    def test_a_case_that_is_not_there(self) -> None:
+        self.expect_refusal(run(self.directory / "nothing.cfg", ranks=3), 2, "nothing.cfg")
+
+    def test_a_drop_in_the_beam(self) -> None:
+        self.expect_refusal(run(self.case, "--set", "drop.centre_x=0.0", ranks=3), 2, "clamp")
+
+    def test_results_that_have_no_place(self) -> None:
+        blocked = self.directory / "file"
+        blocked.write_text("not a folder")
+        self.expect_refusal(run(self.case, "--output", blocked / "out", ranks=3), 2, "is a file; remove it")
+
+    def test_a_state_that_is_not_sound(self) -> None:
+        result = run(self.case, "--output", self.directory / "out", "--set", "safety.speed_limit=2", ranks=3)
+        self.expect_refusal(result, 3, "safety.speed_limit is 2", "Last good snapshot: ", "snapshot_000000.vtkhdf")
+        self.assertIn("stopped", (self.directory / "out" / "run.json").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
