@@ -31,6 +31,7 @@ void migrate(const Communicator& communicator, ParticleSet& particles, std::span
   });
   assert(k == destination.size());
   std::vector<RankRows> sends;
+  sends.reserve(by_rank.size());
   for (auto& [rank, rows] : by_rank) sends.push_back(std::move(rows));
   ExchangePlan plan = ExchangePlan::from_sends(communicator, std::move(sends), 0, tag);
 
@@ -81,6 +82,7 @@ ExchangePlan halo_plan(const Communicator& communicator, const ParticleSet& part
     }
   }
   std::vector<RankRows> sends;
+  sends.reserve(by_rank.size());
   for (auto& [rank, rows] : by_rank) sends.push_back(std::move(rows));
   return ExchangePlan::from_sends(communicator, std::move(sends), static_cast<std::int32_t>(owned), tag);
 }

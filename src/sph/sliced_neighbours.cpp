@@ -30,7 +30,7 @@ SlicedNeighbours SlicedNeighbours::build(const ParticleSet& particles, const Col
     for (std::int32_t lane = 0; lane < slice.rows; ++lane) {
       auto& mine = found[static_cast<std::size_t>(lane)];
       mine.clear();
-      const auto i = static_cast<std::size_t>(first + lane);
+      const auto i = static_cast<std::size_t>(first) + static_cast<std::size_t>(lane);
       const Vector here{x[i], y[i]};
       grid.for_each_near(here, [&](std::int32_t j) {
         const auto row = static_cast<std::size_t>(j);

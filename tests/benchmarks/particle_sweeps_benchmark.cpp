@@ -62,12 +62,14 @@ class StepCost {
 struct Beam {
   explicit Beam(int columns) {
     constexpr int rows = 10;
-    const auto particles = static_cast<std::size_t>(columns * rows);
-    solid.resize(particles);
-    solid.owned = {{0, columns * rows}};
-    for (std::size_t row = 0; row < particles; ++row) {
-      const Vector p{static_cast<double>(row / rows) * spacing, static_cast<double>(row % rows) * spacing};
-      solid.id[row] = static_cast<std::int64_t>(row);
+    const int particles = columns * rows;
+    solid.resize(static_cast<std::size_t>(particles));
+    solid.owned = {{0, particles}};
+    for (int k = 0; k < particles; ++k) {
+      const auto row = static_cast<std::size_t>(k);
+      const int column = k / rows;
+      const Vector p{column * spacing, (k % rows) * spacing};
+      solid.id[row] = k;
       solid.position.set(row, p);
       solid.staggered_velocity.set(row, {0, 1e-3 * std::sin(std::numbers::pi * p.x / (columns * spacing))});
       solid.staggered_density[row] = reference_density;
@@ -245,7 +247,7 @@ void peak(benchmark::State& state, Operation operation) {
     Pack accumulators[chains];
     for (int c = 0; c < chains; ++c) accumulators[c] = load(values[c]);
     for (int k = 0; k < rounds; ++k)
-      for (int c = 0; c < chains; ++c) accumulators[c] = operation(accumulators[c], factor, term);
+      for (Pack& accumulator : accumulators) accumulator = operation(accumulator, factor, term);
     for (int c = 0; c < chains; ++c) store(accumulators[c], values[c]);
     benchmark::ClobberMemory();
   }

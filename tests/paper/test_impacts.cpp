@@ -30,8 +30,8 @@ void expect_momentum_balance(const WatchedRun& run, double relative) {
               relative * start);
 }
 
-// Three things may give energy, and have their own column: the density correction, the artificial stress, and curves that
-// are detected anew. What remains only falls, but for a thousandth of the drop's kinetic energy.
+// Three things may give energy, and have their own column: the density correction, the artificial stress, and curves
+// that are detected anew. What remains only falls, but for a thousandth of the drop's kinetic energy.
 void expect_energy_never_rises(const WatchedRun& run) {
   const double kinetic = run.first().kinetic_fluid;
   double lowest = run.first().total;
