@@ -23,7 +23,7 @@ packages=(
   libmetis-dev libeigen3-dev libtoml11-dev libcli11-dev libfmt-dev
   python3 python3-numpy python3-h5py python3-matplotlib
 )
-packages_of_tests=(git libgtest-dev libbenchmark-dev clang clang-format clang-tidy python3-vtk9)
+packages_of_tests=(git libgtest-dev libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy python3-vtk9)
 
 list_only=false
 for argument in "$@"; do

@@ -140,7 +140,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   for (const PhaseTime& phase : summary.phases) record.set("seconds in " + phase.name, phase.seconds);
   record.finish("completed", hash);
   record.write(directory);
-  say(communicator, stdout, summary_text(summary));
+  say(communicator, stdout, command.quiet ? fmt::format("state hash {:016x}\n", hash) : summary_text(summary));
   return success;
 }
 

@@ -70,7 +70,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
           ->option_text("DIR");
   CLI::Option* until_option = app.add_option("--until", until, "stop at this simulated time, leaving time.end as it is")
                                   ->option_text("SECONDS");
-  app.add_flag("--quiet", result.quiet, "print warnings and errors only");
+  app.add_flag("--quiet", result.quiet, "print warnings, errors and the final state hash only");
 
   try {
     app.parse(argc, argv);

@@ -106,9 +106,12 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
 void ContactStep::move_record(int new_owner) {
   if (new_owner == owner_) return;
   std::vector<double> numbers;
+  std::vector<Vector> force{last_force_};
   if (communicator_.rank() == owner_) numbers = record_.to_numbers();
   communicator_.broadcast(numbers, owner_);
+  communicator_.broadcast(force, owner_);
   record_ = ContactRecord::from_numbers(numbers);
+  last_force_ = force[0];
   owner_ = new_owner;
 }
 
@@ -127,6 +130,9 @@ void ContactStep::work(double time, double step, double kick) {
       std::fill(column->begin(), column->end(), 0.0);
     summary_ = solver_.apply({fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_},
                              {vertex_x_, vertex_y_, force_x_, force_y_}, parameters(step));
+    const double previous_step = 2.0 * kick - step;
+    impulse_ = record_.impulse() + 0.5 * previous_step * last_force_;
+    last_force_ = summary_.force_on_solid;
     record_.add(time, kick, summary_.count, summary_.force_on_solid);
   }
   fluid_gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});

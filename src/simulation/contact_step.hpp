@@ -38,6 +38,9 @@ class ContactStep {
   /// At the owner, of the step last worked on.
   const ContactSummary& summary() const { return summary_; }
   const ContactRecord& record() const { return record_; }
+  /// At the owner: the impulse given to the solid up to the instant last worked on, N s/m. The record is half a step
+  /// ahead, as velocities are; here the half step is predicted as theirs is.
+  Vector impulse() const { return impulse_; }
   /// At the owner: whether an overlap is beyond the limit, and the global id of the deepest particle (-1: none).
   bool overlap_is_too_deep() const { return summary_.overlap_is_too_deep(parameters(1.0)); }
   std::int64_t deepest_particle() const;
@@ -60,6 +63,7 @@ class ContactStep {
   ContactSolver solver_;
   ContactSummary summary_;
   ContactRecord record_;
+  Vector impulse_, last_force_;
   std::vector<double> fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_;
   std::vector<double> vertex_x_, vertex_y_, force_x_, force_y_;
 };

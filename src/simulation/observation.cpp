@@ -171,7 +171,7 @@ void observe_contact(const Simulation& simulation, Observation& o) {
   std::vector<double> numbers;
   if (simulation.communicator().rank() == contact.owner()) {
     const ContactSummary& s = contact.summary();
-    const Vector impulse = contact.record().impulse();
+    const Vector impulse = contact.impulse();
     numbers = {static_cast<double>(s.count), s.force_on_solid.x, s.force_on_solid.y, impulse.x, impulse.y, s.energy};
   }
   simulation.communicator().broadcast(numbers, contact.owner());

@@ -18,6 +18,13 @@ struct BadCase {
 extern const std::string good_case;
 
 std::vector<BadCase> bad_cases();
+std::vector<BadCase> bad_texts();   ///< no TOML, unknown names, wrong types
+std::vector<BadCase> bad_values();  ///< bad, missing or contradictory values; the command line
+
+/// `text` with `from`, which must be there, replaced.
+std::string with(const std::string& from, const std::string& to, std::string text = good_case);
+/// The good case and, from line 11 on, further lines.
+std::string plus(const std::string& lines);
 
 /// The messages for one, as parse_case_text gives them for the file name bad.cfg; empty if it is accepted.
 std::vector<std::string> messages_for(const BadCase& bad);

@@ -31,6 +31,7 @@ double linear_field(Vector p) {
 void place(FluidParticles& fluid, const std::vector<Vector>& positions, double (*density)(Vector)) {
   test::RandomNumbers random(30);
   std::vector<test::FluidSample> sample;
+  sample.reserve(positions.size());
   for (const Vector& p : positions)
     sample.push_back({p, {}, density(p), density(p) * spacing * spacing * random.between(0.7, 1.3)});
   test::fill(fluid, sample, test::first_ids(sample.size()));
@@ -64,6 +65,7 @@ TEST(DensityCorrection, ReproducesALinearFieldOnADisorderedDropWithUnevenVolumes
 
 TEST(DensityCorrection, ReproducesAConstantFieldInAStripOneParticleThick) {
   std::vector<Vector> line;
+  line.reserve(20);
   for (int k = 0; k < 20; ++k) line.push_back({k * spacing, 2 * k * spacing * 1e-9});
   FluidParticles fluid;
   place(fluid, line, [](Vector) { return 997.0; });
@@ -75,6 +77,7 @@ TEST(DensityCorrection, ReproducesAConstantFieldInAStripOneParticleThick) {
 TEST(DensityCorrection, FallsBackToOrderZeroOnALine) {
   for (const Vector along : {Vector{1, 0}, Vector{0, 1}, Vector{0.6, 0.8}}) {
     std::vector<Vector> line;
+    line.reserve(9);
     for (int k = 0; k < 9; ++k) line.push_back(k * spacing * along);
     FluidParticles fluid;
     place(fluid, line, linear_field);

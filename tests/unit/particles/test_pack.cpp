@@ -25,7 +25,7 @@ TEST(Pack, LoadsAndStoresConsecutiveValuesAtAnyAlignment) {
 
 TEST(LoadRecords, PicksEveryComponentOfEveryLanesRow) {
   constexpr std::int32_t rows = 100;
-  std::vector<double> records(rows * 8);
+  std::vector<double> records(std::size_t{rows} * 8);
   for (std::size_t k = 0; k < records.size(); ++k) records[k] = static_cast<double>(k) + 0.5;
   // Ascending, descending, scattered, repeated.
   for (const std::int32_t stride : {1, 99, 37, 0}) {

@@ -90,6 +90,7 @@ TEST(OffsetNeighbours, AreTwentyOffsetsInTheBulkOfALattice) {
 TEST(OffsetNeighbours, EqualBruteForceOnRandomPointsInAnyOrder) {
   test::RandomNumbers random(13);
   std::vector<Vector> positions;
+  positions.reserve(203);
   for (int k = 0; k < 203; ++k) positions.push_back(random.in_box({0, 0}, {14, 14}));
   const std::vector<Presence> rows = all_owned(positions.size());
   SolidParticles solid;

@@ -32,6 +32,7 @@ std::vector<std::int32_t> brute_force(const FluidParticles& fluid, std::size_t r
       found.emplace_back(fluid.id[j], static_cast<std::int32_t>(j));
   std::sort(found.begin(), found.end());
   std::vector<std::int32_t> rows;
+  rows.reserve(found.size());
   for (const auto& [id, j] : found) rows.push_back(j);
   return rows;
 }
@@ -48,13 +49,17 @@ void expect_equal_to_brute_force(const FluidParticles& fluid, RowRange range, do
     std::int32_t longest = 0;
     for (std::int32_t lane = 0; lane < block_size; ++lane) {
       std::vector<std::int32_t> expected;
-      if (lane < slice.rows) expected = brute_force(fluid, static_cast<std::size_t>(slice.first_row + lane), reach);
+      if (lane < slice.rows)
+        expected =
+            brute_force(fluid, static_cast<std::size_t>(slice.first_row) + static_cast<std::size_t>(lane), reach);
       pairs += static_cast<std::int64_t>(expected.size());
       longest = std::max(longest, static_cast<std::int32_t>(expected.size()));
       ASSERT_LE(expected.size(), static_cast<std::size_t>(slice.entries));
       expected.resize(static_cast<std::size_t>(slice.entries), padding);
       for (std::int32_t entry = 0; entry < slice.entries; ++entry)
-        EXPECT_EQ(list.neighbours[static_cast<std::size_t>((slice.first_entry + entry) * block_size + lane)],
+        EXPECT_EQ(list.neighbours[(static_cast<std::size_t>(slice.first_entry) + static_cast<std::size_t>(entry)) *
+                                      block_size +
+                                  static_cast<std::size_t>(lane)],
                   expected[static_cast<std::size_t>(entry)])
             << "row " << slice.first_row + lane << ", entry " << entry;
     }
@@ -70,6 +75,7 @@ void expect_equal_to_brute_force(const FluidParticles& fluid, RowRange range, do
 TEST(SlicedNeighbours, EqualBruteForceOnRandomPoints) {
   test::RandomNumbers random(7);
   std::vector<Vector> positions;
+  positions.reserve(300);
   for (int k = 0; k < 300; ++k) positions.push_back(random.in_box({0, 0}, {16, 19}));
   FluidParticles fluid;
   place(fluid, positions, 8);
