@@ -8,8 +8,8 @@ namespace sphdrop {
 class SolidParticles : public ParticleSet {
  public:
   ScalarField mass{*this, "mass", "kg/m", Role::state | Role::constant | Role::written, "mass per metre of depth"};
-  ScalarField mobility{*this, "mobility", "-", Role::state | Role::constant | Role::written,
-                       "1 for particles that move, 0 for those a clamp or a wall holds"};
+  ScalarField is_fixed{*this, "is_fixed", "1", Role::state | Role::constant | Role::written,
+                       "1 for particles that a clamp or a wall holds, 0 for those that move"};
   VectorField reference_position{*this, "reference_position", "m", Role::state | Role::constant,
                                  "position in the undeformed body"};
   VectorField position{*this, "position", "m", Role::state | Role::ghosted | Role::written, "position", far_away};

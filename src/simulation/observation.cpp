@@ -76,7 +76,7 @@ void add_solid(const Simulation& simulation, Sums& sums) {
   s.for_each_owned([&](std::size_t row) {
     const double m = s.mass[row];
     const Vector x = s.position.at(row), v = s.velocity.at(row);
-    if (s.mobility[row] > 0) {
+    if (s.is_fixed[row] == 0) {
       sums[solid_mass_x].add(m * x.x);
       sums[solid_mass_y].add(m * x.y);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnostics/theory.hpp"
+#include "simulation/snapshot_table.hpp"
 
 namespace sphdrop {
 
@@ -111,56 +112,11 @@ void Recorder::write_row() {
 
 void Recorder::write_snapshot() {
   hash_ = state_hash(simulation_);
-  const FluidParticles& f = simulation_.fluid();
-  const SolidParticles& s = simulation_.solid();
-  const std::size_t rows = f.owned_count() + s.owned_count();
-  std::vector<std::int64_t> id, material, is_fixed;
-  std::vector<double> mass, x, y, vx, vy, density, pressure, xx, yy, xy;
-  id.reserve(rows);
-  f.for_each_owned([&](std::size_t row) {
-    id.push_back(f.id[row]);
-    material.push_back(0);
-    is_fixed.push_back(0);
-    mass.push_back(f.mass[row]);
-    x.push_back(f.position.x[row]);
-    y.push_back(f.position.y[row]);
-    vx.push_back(f.velocity.x[row]);
-    vy.push_back(f.velocity.y[row]);
-    density.push_back(f.density[row]);
-    pressure.push_back(f.pressure[row]);
-    xx.push_back(-f.pressure[row]);
-    yy.push_back(-f.pressure[row]);
-    xy.push_back(0.0);
-  });
-  s.for_each_owned([&](std::size_t row) {
-    id.push_back(s.id[row]);
-    material.push_back(1);
-    is_fixed.push_back(s.mobility[row] > 0 ? 0 : 1);
-    mass.push_back(s.mass[row]);
-    x.push_back(s.position.x[row]);
-    y.push_back(s.position.y[row]);
-    vx.push_back(s.velocity.x[row]);
-    vy.push_back(s.velocity.y[row]);
-    density.push_back(s.density[row]);
-    pressure.push_back(s.pressure[row]);
-    xx.push_back(s.stress.xx[row]);
-    yy.push_back(s.stress.yy[row]);
-    xy.push_back(s.stress.xy[row]);
-  });
-  const std::vector<SnapshotColumn> columns{
-      SnapshotColumn::integer("material", "0: liquid, 1: solid", material),
-      SnapshotColumn::integer("is_fixed", "1: a particle that a clamp or wall holds", is_fixed),
-      SnapshotColumn::scalar("mass", "kg/m", "mass per metre of depth", mass),
-      SnapshotColumn::vector("velocity", "m/s", "velocity", vx, vy),
-      SnapshotColumn::scalar("density", "kg/m3", "density", density),
-      SnapshotColumn::scalar("pressure", "Pa", "pressure (Eqs 4, 5)", pressure),
-      SnapshotColumn::scalar("stress_xx", "Pa", "total stress; the liquid's is -p", xx),
-      SnapshotColumn::scalar("stress_yy", "Pa", "total stress; the liquid's is -p", yy),
-      SnapshotColumn::scalar("stress_xy", "Pa", "total stress; the liquid's is 0", xy),
-  };
+  const SnapshotTable table(simulation_.fluid(), simulation_.solid());
   const SnapshotHeader header{simulation_.time(), simulation_.step(), hash_, simulation_.input().name,
                               options_.version};
-  last_snapshot_ = snapshots_.write(header, {simulation_.fluid_total() + simulation_.solid_total(), id, x, y}, columns);
+  last_snapshot_ =
+      snapshots_.write(header, table.rows(simulation_.fluid_total() + simulation_.solid_total()), table.columns());
   last_snapshot_step_ = simulation_.step();
 }
 

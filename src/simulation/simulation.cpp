@@ -115,7 +115,7 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
     const auto row = static_cast<std::size_t>(k - solid_first), source = static_cast<std::size_t>(k);
     solid_.id[row] = fluid_total_ + k;
     solid_.mass[row] = solid.masses[source];
-    solid_.mobility[row] = solid.is_fixed[source] ? 0.0 : 1.0;
+    solid_.is_fixed[row] = solid.is_fixed[source] ? 1.0 : 0.0;
     solid_.reference_position.set(row, solid.positions[source]);
     solid_.position.set(row, solid.positions[source]);
     solid_.staggered_velocity.set(row, solid.velocities[source]);

@@ -114,8 +114,8 @@ MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_l
   for (const RowRange& range : s.owned)
     for (std::int32_t row = range.begin; row < range.end; ++row) {
       const auto k = static_cast<std::size_t>(row);
-      s.acceleration.x[k] *= s.mobility[k];
-      s.acceleration.y[k] *= s.mobility[k];
+      s.acceleration.x[k] *= 1.0 - s.is_fixed[k];
+      s.acceleration.y[k] *= 1.0 - s.is_fixed[k];
     }
   advance_column(s.owned, steps.kick(), s.acceleration.x, s.staggered_velocity.x, s.staggered_velocity.x);
   advance_column(s.owned, steps.kick(), s.acceleration.y, s.staggered_velocity.y, s.staggered_velocity.y);

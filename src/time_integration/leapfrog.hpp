@@ -35,7 +35,7 @@ void predict(FluidParticles& fluid, double previous_step);
 void predict(SolidParticles& solid, double previous_step);
 
 /// Velocity, density (and deviatoric stress) from t - previous/2 to t + next/2, position from t to t + next (36-39);
-/// held particles (mobility 0) stay. `speed_limit` in m/s.
+/// held particles (is_fixed 1) stay. `speed_limit` in m/s.
 MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit);
 MotionMaxima kick_and_drift(SolidParticles& solid, StepLengths steps, double speed_limit);
 

@@ -74,7 +74,7 @@ struct Beam {
       solid.staggered_velocity.set(row, {0, 1e-3 * std::sin(std::numbers::pi * p.x / (columns * spacing))});
       solid.staggered_density[row] = reference_density;
       solid.mass[row] = reference_density * spacing * spacing;
-      solid.mobility[row] = 1.0;
+      solid.is_fixed[row] = 0.0;
     }
     list = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, reach);
     predict(solid, 0.0);

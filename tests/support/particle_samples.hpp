@@ -133,7 +133,7 @@ inline void fill(SolidParticles& solid, std::span<const SolidSample> sample, std
     solid.velocity.set(row, s.velocity);
     solid.density[row] = s.density;
     solid.mass[row] = s.mass;
-    solid.mobility[row] = 1.0;
+    solid.is_fixed[row] = 0.0;
     solid.deviatoric_stress.xx[row] = s.tau_xx;
     solid.deviatoric_stress.yy[row] = s.tau_yy;
     solid.deviatoric_stress.xy[row] = s.tau_xy;

@@ -109,7 +109,7 @@ TYPED_TEST(QuantityTable, CarriesWhatALeapFrogStepStartsFrom) {
   if constexpr (std::is_same_v<TypeParam, SolidParticles>) {
     for (const Column<double>& column : set.staggered_deviatoric_stress.columns) EXPECT_TRUE(is_state(column));
     for (const Column<double>& column : set.deviatoric_stress_rate.columns) EXPECT_TRUE(is_state(column));
-    EXPECT_TRUE(is_state(set.mobility.columns[0]));
+    EXPECT_TRUE(is_state(set.is_fixed.columns[0]));
   }
 }
 

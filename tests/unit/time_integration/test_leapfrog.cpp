@@ -21,7 +21,7 @@ void make_rows(Set& set, std::size_t rows) {
   for (std::size_t row = 0; row < rows; ++row) {
     set.id[row] = static_cast<std::int64_t>(row);
     set.mass[row] = 1.0;
-    if constexpr (std::is_same_v<Set, SolidParticles>) set.mobility[row] = 1.0;
+    if constexpr (std::is_same_v<Set, SolidParticles>) set.is_fixed[row] = 0.0;
   }
 }
 
@@ -243,7 +243,7 @@ TEST(FluidLeapFrog, ReportsTheDisplacementSinceTheSurfaceWasDetected) {
 TEST(SolidLeapFrog, HoldsFixedParticlesButLetsTheirDensityAndStressEvolve) {
   SolidParticles p;
   make_rows(p, 10);
-  p.mobility[3] = 0;
+  p.is_fixed[3] = 1;
   for (std::size_t row = 0; row < 10; ++row) {
     p.position.set(row, {1, 2});
     p.acceleration.set(row, {4, 8});
