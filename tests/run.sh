@@ -111,7 +111,7 @@ if stage 'configure release' cmake --preset release; then
 fi
 if ! $quick; then
   if stage 'configure sanitize' cmake --preset sanitize &&
-    stage 'build sanitize' cmake --build --preset sanitize --parallel "$cores" --target tests/unit/all tests/mpi/all; then
+    stage 'build sanitize' cmake --build --preset sanitize --parallel "$cores" --target sphdrop tests/unit/all tests/mpi/all; then
     tests 'unit tests sanitize' --test-dir build/sanitize/tests/unit
     tests 'mpi tests sanitize' --test-dir build/sanitize/tests/mpi
   fi
