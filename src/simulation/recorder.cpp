@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
+#include "diagnostics/frequency.hpp"
 #include "diagnostics/theory.hpp"
 #include "simulation/snapshot_table.hpp"
 
@@ -94,6 +97,13 @@ void Recorder::write_row() {
     extremes_.add(o.time, std::isfinite(o.drop_width) ? o.drop_width : 0.0,
                   std::isfinite(o.deflection) ? o.deflection : 0.0, touching,
                   std::isfinite(o.drop_velocity_y) ? o.drop_velocity_y : 0.0);
+  if (touching > 0) {
+    ringing_times_.clear();
+    ringing_deflections_.clear();
+  } else if (std::isfinite(o.deflection)) {
+    ringing_times_.push_back(o.time);
+    ringing_deflections_.push_back(o.deflection);
+  }
   on_first_rank([&] {
     std::vector<double> values;
     for (const ObservedQuantity& q : observed_quantities()) values.push_back((*last_).*q.value);
@@ -108,6 +118,15 @@ void Recorder::write_row() {
   sample.deflection = if_known(o.deflection);
   if (kinetic > 0) sample.energy_error = last_->unaccounted / kinetic;
   progress_.update(sample);
+}
+
+// The period at which the beam rings once nothing touches it any more; empty where it was not watched long enough.
+std::optional<double> Recorder::ringing_period() const {
+  try {
+    return 1.0 / frequency_by_zero_crossings(ringing_times_, ringing_deflections_).frequency;
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
 }
 
 void Recorder::write_snapshot() {
@@ -145,6 +164,7 @@ RunSummary Recorder::summary() const {
     RunSummary::Beam b;
     b.largest_deflection = *extremes_.depth().sampled();
     b.length = c.solid.length;
+    b.measured_period = ringing_period();
     const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
     b.theory_period =
         period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam));

@@ -41,6 +41,7 @@ class Recorder {
  private:
   void write_row();
   void write_snapshot();
+  std::optional<double> ringing_period() const;
   template <class F>
   void on_first_rank(F&& f);
 
@@ -51,6 +52,7 @@ class Recorder {
   std::filesystem::path last_snapshot_;
   Progress progress_;
   Extremes extremes_;
+  std::vector<double> ringing_times_, ringing_deflections_;  // since the last contact
   std::optional<Observation> first_, last_;
   double next_row_ = 0, next_snapshot_ = 0;
   std::int64_t last_snapshot_step_ = -1;
