@@ -94,6 +94,7 @@ ContactSummary ContactSolver::apply(const ContactParticles& particles, const Con
 
     ++summary.count;
     summary.force_on_solid += reaction;
+    summary.moment_on_solid += cross({particles.x[i], particles.y[i]}, reaction);
     summary.energy += particles.mass[i] * contact_energy(foot, k, d0);
     if (overlap > summary.largest_overlap) {
       summary.largest_overlap = overlap;

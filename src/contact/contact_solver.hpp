@@ -33,6 +33,7 @@ struct ContactVertices {
 struct ContactSummary {
   std::int64_t count = 0;      ///< particles in contact
   Vector force_on_solid;       ///< N per metre of depth
+  double moment_on_solid = 0;  ///< of that force about the origin, counterclockwise, N m per metre of depth
   double energy = 0;           ///< sum of m k (d0 - d_p)^2 / 2, J per metre of depth
   double largest_overlap = 0;  ///< largest d0 - d_p, m
   std::int32_t deepest = -1;   ///< the particle it belongs to, the lowest of several; -1 without contact

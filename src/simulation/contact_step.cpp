@@ -106,12 +106,14 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
 void ContactStep::move_record(int new_owner) {
   if (new_owner == owner_) return;
   std::vector<double> numbers;
-  std::vector<Vector> force{last_force_};
+  std::vector<double> last{last_force_.x, last_force_.y, last_moment_, staggered_angular_impulse_};
   if (communicator_.rank() == owner_) numbers = record_.to_numbers();
   communicator_.broadcast(numbers, owner_);
-  communicator_.broadcast(force, owner_);
+  communicator_.broadcast(last, owner_);
   record_ = ContactRecord::from_numbers(numbers);
-  last_force_ = force[0];
+  last_force_ = {last[0], last[1]};
+  last_moment_ = last[2];
+  staggered_angular_impulse_ = last[3];
   owner_ = new_owner;
 }
 
@@ -133,6 +135,9 @@ void ContactStep::work(double time, double step, double kick) {
     const double previous_step = 2.0 * kick - step;
     impulse_ = record_.impulse() + 0.5 * previous_step * last_force_;
     last_force_ = summary_.force_on_solid;
+    angular_impulse_ = staggered_angular_impulse_ + 0.5 * previous_step * last_moment_;
+    staggered_angular_impulse_ += kick * summary_.moment_on_solid;
+    last_moment_ = summary_.moment_on_solid;
     record_.add(time, kick, summary_.count, summary_.force_on_solid);
   }
   fluid_gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});

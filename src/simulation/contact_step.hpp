@@ -41,6 +41,8 @@ class ContactStep {
   /// At the owner: the impulse given to the solid up to the instant last worked on, N s/m. The record is half a step
   /// ahead, as velocities are; here the half step is predicted as theirs is.
   Vector impulse() const { return impulse_; }
+  /// At the owner: likewise the angular impulse about the origin, N m s/m.
+  double angular_impulse() const { return angular_impulse_; }
   /// At the owner: whether an overlap is beyond the limit, and the global id of the deepest particle (-1: none).
   bool overlap_is_too_deep() const { return summary_.overlap_is_too_deep(parameters(1.0)); }
   std::int64_t deepest_particle() const;
@@ -64,6 +66,7 @@ class ContactStep {
   ContactSummary summary_;
   ContactRecord record_;
   Vector impulse_, last_force_;
+  double staggered_angular_impulse_ = 0, angular_impulse_ = 0, last_moment_ = 0;
   std::vector<double> fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_;
   std::vector<double> vertex_x_, vertex_y_, force_x_, force_y_;
 };

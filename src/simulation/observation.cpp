@@ -172,7 +172,8 @@ void observe_contact(const Simulation& simulation, Observation& o) {
   if (simulation.communicator().rank() == contact.owner()) {
     const ContactSummary& s = contact.summary();
     const Vector impulse = contact.impulse();
-    numbers = {static_cast<double>(s.count), s.force_on_solid.x, s.force_on_solid.y, impulse.x, impulse.y, s.energy};
+    numbers = {static_cast<double>(s.count), s.force_on_solid.x, s.force_on_solid.y, impulse.x, impulse.y, s.energy,
+               contact.angular_impulse()};
   }
   simulation.communicator().broadcast(numbers, contact.owner());
   o.contact_count = numbers[0];
@@ -181,6 +182,7 @@ void observe_contact(const Simulation& simulation, Observation& o) {
   o.contact_impulse_x = numbers[3];
   o.contact_impulse_y = numbers[4];
   o.contact = numbers[5];
+  o.contact_angular_impulse = numbers[6];
 }
 
 }  // namespace

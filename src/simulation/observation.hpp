@@ -18,6 +18,7 @@ struct Observation {
   double drop_elongation, quarter_centre_x, quarter_centre_y;
   double mean_pressure, curve_length, mean_curvature, curvature_scatter, curve_count, tension_net_force;
   double contact_count, contact_force_x, contact_force_y, contact_impulse_x, contact_impulse_y;
+  double contact_angular_impulse;
   double kinetic_fluid, kinetic_solid, elastic, compressive, surface, contact, gravity;
   double dissipated_fluid, dissipated_solid, density_correction, artificial_stress_work, reconnection;
   double total, unaccounted;

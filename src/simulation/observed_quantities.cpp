@@ -31,6 +31,8 @@ std::span<const ObservedQuantity> observed_quantities() {
       {"contact_force_y", "N/m", "force on the solid", &O::contact_force_y},
       {"contact_impulse_x", "N s/m", "impulse on the solid so far", &O::contact_impulse_x},
       {"contact_impulse_y", "N s/m", "impulse on the solid so far", &O::contact_impulse_y},
+      {"contact_angular_impulse", "N m s/m", "angular impulse on the solid about the origin so far, counterclockwise",
+       &O::contact_angular_impulse},
       {"kinetic_fluid", "J/m", "kinetic energy of the liquid", &O::kinetic_fluid},
       {"kinetic_solid", "J/m", "kinetic energy of the solid", &O::kinetic_solid},
       {"elastic", "J/m", "elastic energy of the solid", &O::elastic},

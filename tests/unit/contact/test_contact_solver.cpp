@@ -122,7 +122,7 @@ TEST(ContactSolver, ConservesLinearAndAngularMomentum) {
   solver.rebuild(scene.x, scene.y, scene.vertex_x, scene.vertex_y, scene.segments, 6.0);
   const ContactSummary summary = solver.apply(scene.particles(), scene.vertices(), parameters);
   Vector total, on_solid;
-  double moment = 0, magnitude = 0;
+  double moment = 0, moment_on_solid = 0, magnitude = 0;
   for (std::size_t i = 0; i < scene.x.size(); ++i) {
     const Vector force = scene.mass[i] * Vector{scene.acceleration_x[i], scene.acceleration_y[i]};
     total += force;
@@ -133,11 +133,13 @@ TEST(ContactSolver, ConservesLinearAndAngularMomentum) {
     const Vector force{scene.force_x[v], scene.force_y[v]};
     on_solid += force;
     moment += cross({scene.vertex_x[v], scene.vertex_y[v]}, force);
+    moment_on_solid += cross({scene.vertex_x[v], scene.vertex_y[v]}, force);
   }
   EXPECT_GT(magnitude, 100.0);
   EXPECT_NEAR(length(total + on_solid), 0.0, 1e-14 * magnitude);
   EXPECT_NEAR(moment, 0.0, 1e-14 * magnitude * 60);
   EXPECT_NEAR(length(summary.force_on_solid - on_solid), 0.0, 1e-14 * magnitude);
+  EXPECT_NEAR(summary.moment_on_solid, moment_on_solid, 1e-14 * magnitude * 60);
 }
 
 TEST(ContactSolver, AddsToWhatIsThere) {
