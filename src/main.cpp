@@ -60,6 +60,21 @@ bool someone_watches_stderr() {
   return !unknown && target.string().starts_with("/dev/pts/");
 }
 
+// The effective case is written as case.cfg, which may be the very file the user wrote: `--output .` beside it.
+void refuse_to_overwrite_case(const Communicator& communicator, const std::filesystem::path& directory,
+                              const std::string& case_file, const std::string& case_text, const Case& input) {
+  std::string error;
+  if (communicator.rank() == 0) {
+    std::error_code not_there;
+    const bool is_same = std::filesystem::equivalent(directory / "case.cfg", case_file, not_there);
+    if (is_same && case_text != effective_case_text(input))
+      error = fmt::format("the results in {} would replace the case file {} itself; choose another --output",
+                          directory.string(), case_file);
+  }
+  communicator.broadcast(error, 0);
+  if (!error.empty()) throw OutputDirectoryError(error);
+}
+
 // A run starts with an empty folder: snapshots of an earlier, longer run would mix with its own.
 void remove_earlier_results(const Communicator& communicator, const std::filesystem::path& directory) {
   std::string error;
@@ -104,6 +119,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
 
   const std::filesystem::path directory = input.output.directory;
   prepare_output_directory(communicator, directory);
+  refuse_to_overwrite_case(communicator, directory, command.case_file, text, input);
   remove_earlier_results(communicator, directory);
   write_effective_case(communicator, directory, input);
   RunRecord record(communicator, arguments);

@@ -164,6 +164,16 @@ class Mistakes(ProgramTest):
         blocked.write_text("not a folder")
         self.expect_refusal(run(self.case, "--output", blocked / "out", ranks=3), 2, "is a file; remove it")
 
+    def test_results_that_would_replace_the_case(self) -> None:
+        own = self.directory / "case.cfg"
+        own.write_text(CASE)
+        self.expect_refusal(run(own, "--output", self.directory, ranks=2), 2, "would replace the case file")
+        self.assertEqual(own.read_text(), CASE)
+        # An effective case may run again where it lies: it is replaced by itself.
+        run(own, "--output", self.directory / "out")
+        again = run(self.directory / "out" / "case.cfg")
+        self.assertEqual(again.returncode, 0, again.stderr)
+
     def test_a_state_that_is_not_sound(self) -> None:
         result = run(self.case, "--output", self.directory / "out", "--set", "safety.speed_limit=2", ranks=3)
         self.expect_refusal(result, 3, "safety.speed_limit is 2", "Last good snapshot: ", "snapshot_000000.vtkhdf")
