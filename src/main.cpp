@@ -16,6 +16,7 @@
 #include "config/toml_source.hpp"
 #include "decomposition/communicator.hpp"
 #include "io/output_directory.hpp"
+#include "io/provenance.hpp"
 #include "setup/initial_state.hpp"
 #include "setup/setup_error.hpp"
 #include "simulation/case_check.hpp"
@@ -169,6 +170,10 @@ int main(int argc, char** argv) {
   if (command.action == CommandLine::Action::finish) {
     say(communicator, command.exit_code == 0 ? stdout : stderr, command.text);
     return command.exit_code;
+  }
+  if (command.action == CommandLine::Action::version) {
+    say(communicator, stdout, fmt::format("sphdrop {}, commit {}\n", version_text(), build_info().git_commit));
+    return success;
   }
   // These are thrown on all ranks together, so all can leave in good order; anything else is one rank's own trouble.
   const auto fail = [&](ExitCode code, const std::exception& error) {

@@ -59,7 +59,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app("Droplet impact on elastic beams by smoothed particle hydrodynamics", "sphdrop");
   app.allow_extras();
   app.add_option("case", result.case_file, "the case file (TOML)")->option_text("case.cfg");
-  app.add_flag("--version", version, "print the version and leave");
+  app.add_flag("--version", version, "print version and commit and leave");
   app.add_flag("--list-parameters", list_parameters, "print all parameters of a case and leave");
   app.add_flag("--check", check, "read, check and set up the case, but do not run it");
   app.add_option("--set", result.overrides, "use this value instead of the case file's; may be given several times")
@@ -82,7 +82,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
   const std::vector<std::string> extras = app.remaining();
   if (!extras.empty()) return usage_mistake(unexpected_argument(app, extras.front()));
-  if (version) return finish(fmt::format("sphdrop {}\n", version_text()), 0);
+  if (version) {
+    result.action = CommandLine::Action::version;
+    return result;
+  }
   if (list_parameters) return finish(list_parameters_text(), 0);
   if (result.case_file.empty()) return usage_mistake("a case file is missing");
   if (check) result.action = CommandLine::Action::check;

@@ -10,8 +10,9 @@ namespace sphdrop {
 struct CommandLine {
   enum class Action {
     run,
-    check,  ///< read and check the case, set it up, but take no step
-    finish  ///< print `text` and leave with `exit_code`: to standard output if that is 0, else to standard error
+    check,    ///< read and check the case, set it up, but take no step
+    version,  ///< tell version and commit and leave
+    finish    ///< print `text` and leave with `exit_code`: to standard output if that is 0, else to standard error
   };
   Action action = Action::run;
   std::string text;

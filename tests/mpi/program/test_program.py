@@ -130,7 +130,7 @@ class Checking(ProgramTest):
         self.assertEqual(before, sorted(self.directory.iterdir()))
 
     def test_questions_are_answered_once(self) -> None:
-        for option, part in (("--help", "--check"), ("--version", "sphdrop"), ("--list-parameters", "drop.diameter")):
+        for option, part in (("--help", "--check"), ("--version", ", commit "), ("--list-parameters", "drop.diameter")):
             result = run(option, ranks=3)
             self.assertEqual(result.returncode, 0)
             self.assertEqual(result.stdout.count(part), run(option).stdout.count(part))
