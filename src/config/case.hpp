@@ -9,6 +9,7 @@ namespace sphdrop {
 enum class Mode { paper };
 enum class DropShape { none, round, square };
 enum class DropArrangement { rings, lattice };
+enum class DropMaterial { liquid, rigid };
 enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall };
 enum class DeviatoricTrace { plane_strain, two_dimensional };
 enum class SurfaceTensionForm { none, conservative, curvature };
@@ -49,6 +50,8 @@ struct Case {
   struct Drop {
     DropShape shape = DropShape::none;
     DropArrangement arrangement = DropArrangement::rings;
+    DropMaterial material = DropMaterial::liquid;
+    double density = 0;                     ///< kg/m3; a liquid's is fluid.density
     double diameter = 0;                    ///< D0 (round) or side (square), m
     double velocity_x = 0, velocity_y = 0;  ///< m/s
     double gap = 0;                         ///< at the start, between the surfaces of drop and solid, m
@@ -57,6 +60,11 @@ struct Case {
     std::int64_t seed = 0;
     double oscillation_velocity = 0;  ///< V0, m/s
     double oscillation_radius = 0;    ///< r0, m
+    double initial_spin = 0;          ///< of a rigid drop, rad/s, counterclockwise
+    /// Moved as one rigid body (Sec. 4.4).
+    bool is_rigid() const { return shape != DropShape::none && material == DropMaterial::rigid; }
+    /// Has pressure, viscosity and surface tension.
+    bool is_liquid() const { return shape != DropShape::none && material == DropMaterial::liquid; }
     bool operator==(const Drop&) const = default;
   } drop;
 
@@ -73,6 +81,7 @@ struct Case {
     double artificial_stress_coefficient = 0;  ///< eps, Eq 20
     double clamp_length = 0;                   ///< m
     std::int64_t clamp_layers = 0;
+    double damping_rate = 0;          ///< 1/s, in proportion to mass: a = -damping_rate v
     double initial_tip_velocity = 0;  ///< m/s, along +y (up); of the cantilever's first bending mode
     bool operator==(const Solid&) const = default;
   } solid;

@@ -59,6 +59,32 @@ Verdict velocity_without_drop(const Case& values) {
   return "drop.velocity is given but there is no drop; set it to [0, 0] or give drop.shape";
 }
 
+Verdict rigid_without_drop(const Case& values) {
+  if (has_drop(values) || values.drop.material == DropMaterial::liquid) return {};
+  return "drop.material = \"rigid\" but there is no drop; leave it out or give drop.shape";
+}
+
+Verdict oscillation_of_a_rigid_drop(const Case& values) {
+  if (values.drop.oscillation_velocity == 0 || !values.drop.is_rigid()) return {};
+  return "drop.oscillation_velocity needs drop.material = \"liquid\": a rigid drop cannot change its shape; set it to "
+         "0 "
+         "or make the drop liquid";
+}
+
+Verdict spin_of_a_liquid(const Case& values) {
+  if (values.drop.initial_spin == 0 || values.drop.is_rigid()) return {};
+  return "drop.initial_spin needs drop.material = \"rigid\": only a rigid drop starts with a spin; set it to 0 or make "
+         "the drop rigid";
+}
+
+Verdict density_of_a_liquid(const Case& values) {
+  if (!values.drop.is_liquid() || values.drop.density == values.fluid.density) return {};
+  return fmt::format(
+      "drop.density = {} kg/m3 is that of a rigid drop, and this one is liquid with fluid.density = {} kg/m3; leave it "
+      "out, or make the drop rigid (drop.material = \"rigid\")",
+      values.drop.density, values.fluid.density);
+}
+
 Verdict drop_too_small(const Case& values) {
   const double d = values.resolution.spacing;
   if (!has_drop(values) || values.drop.diameter >= 4 * d * (1 - whole_number_tolerance)) return {};
@@ -115,7 +141,7 @@ Verdict clamp_thinner_than_support(const Case& values) {
 }
 
 Verdict clamp_shorter_than_support(const Case& values) {
-  if (!has_beam(values)) return {};
+  if (!has_beam(values) || rows_across(values) < 2 - whole_number_tolerance) return {};  // refused as too thin
   const double support = 2 * values.resolution.smoothing_ratio * values.resolution.spacing;
   if (values.solid.clamp_length < support * (1 - whole_number_tolerance)) {
     return fmt::format("solid.clamp_length = {} m is shorter than the kernel's support of {} m; take at least that",
@@ -129,6 +155,24 @@ Verdict tip_velocity_of_another_solid(const Case& values) {
   return "solid.initial_tip_velocity needs solid.kind = \"cantilever\": the initial velocity is that of its first "
          "mode; set "
          "it to 0 or make the solid a cantilever";
+}
+
+Verdict damping_of_another_solid(const Case& values) {
+  if (values.solid.damping_rate == 0 || has_beam(values)) return {};
+  return "solid.damping_rate needs a beam (solid.kind = \"cantilever\" or \"fixed_fixed_beam\"): nothing else is "
+         "damped "
+         "by it; set it to 0";
+}
+
+// Far beyond any use: a velocity would change its sign from step to step.
+Verdict damping_within_a_step(const Case& values) {
+  const StepBound bound = largest_step(values);
+  if (!has_beam(values) || values.solid.damping_rate * bound.step <= 1) return {};
+  return fmt::format(
+      "solid.damping_rate = {} 1/s would stop the beam within a time step, of which {:.4g} s is the bound of {} at a "
+      "CFL "
+      "factor of 1; take at most {:.4g} 1/s, or about 2 omega to bring a mode of angular frequency omega to rest",
+      values.solid.damping_rate, bound.step, bound.equation, 1 / bound.step);
 }
 
 Verdict step_too_large(const Case& values) {
@@ -171,18 +215,44 @@ const std::vector<Check>& contradiction_checks() {
       {{"drop.shape", "solid.kind"}, nothing_to_simulate},
       {{"drop.oscillation_velocity", "drop.shape"}, oscillation_of_another_shape},
       {{"drop.velocity", "drop.shape"}, velocity_without_drop},
+      {{"drop.material", "drop.shape"}, rigid_without_drop},
+      {{"drop.oscillation_velocity", "drop.material"}, oscillation_of_a_rigid_drop},
+      {{"drop.initial_spin", "drop.material"}, spin_of_a_liquid},
+      {{"drop.density", "drop.material", "fluid.density"}, density_of_a_liquid},
       {{"drop.diameter", "resolution.spacing", "drop.shape"}, drop_too_small},
       {{"solid.length", "solid.kind"}, beam_without_length},
       {{"solid.thickness", "resolution.spacing", "solid.kind"}, rows_not_whole},
       {{"solid.length", "resolution.spacing", "solid.kind"}, length_not_whole},
       {{"solid.clamp_layers", "resolution.smoothing_ratio", "solid.kind"}, clamp_thinner_than_support},
-      {{"solid.clamp_length", "resolution.smoothing_ratio", "resolution.spacing", "solid.kind"},
+      {{"solid.clamp_length", "resolution.smoothing_ratio", "resolution.spacing", "solid.kind", "solid.thickness"},
        clamp_shorter_than_support},
       {{"solid.initial_tip_velocity", "solid.kind"}, tip_velocity_of_another_solid},
-      {{"time.step", "resolution.spacing", "resolution.smoothing_ratio", "fluid.sound_speed", "fluid.density",
-        "fluid.viscosity", "surface_tension.form", "surface_tension.coefficient", "solid.kind", "solid.youngs_modulus",
-        "solid.poisson_ratio", "solid.density", "drop.shape", "drop.velocity", "drop.diameter",
-        "drop.oscillation_velocity", "solid.initial_tip_velocity", "gravity.acceleration", "time.end"},
+      {{"solid.damping_rate", "solid.kind"}, damping_of_another_solid},
+      {{"solid.damping_rate", "resolution.spacing", "solid.youngs_modulus", "solid.poisson_ratio", "solid.density",
+        "resolution.smoothing_ratio", "fluid.sound_speed", "fluid.density", "fluid.viscosity", "drop.diameter",
+        "surface_tension.coefficient", "gravity.acceleration", "time.end"},
+       damping_within_a_step},
+      {{"time.step",
+        "resolution.spacing",
+        "resolution.smoothing_ratio",
+        "fluid.sound_speed",
+        "fluid.density",
+        "fluid.viscosity",
+        "surface_tension.form",
+        "surface_tension.coefficient",
+        "solid.kind",
+        "solid.youngs_modulus",
+        "solid.poisson_ratio",
+        "solid.density",
+        "drop.shape",
+        "drop.velocity",
+        "drop.diameter",
+        "drop.oscillation_velocity",
+        "drop.material",
+        "drop.initial_spin",
+        "solid.initial_tip_velocity",
+        "gravity.acceleration",
+        "time.end"},
        step_too_large},
       {{"time.step", "time.end"}, step_beyond_end},
       {{"resolution.spacing", "drop.shape", "drop.diameter", "solid.kind", "solid.length", "solid.thickness",

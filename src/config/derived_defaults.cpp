@@ -21,12 +21,29 @@ double default_centre(const Case& values) {
   return 0;
 }
 
-// No particle gets here in a sound run: twice what free flight at the expected speed covers, plus the largest body.
+// Of the drop's particle farthest from its centre.
+double largest_radius(const Case& values) {
+  const double half_width = values.drop.diameter / 2;
+  return values.drop.shape == DropShape::square ? std::numbers::sqrt2 * half_width : half_width;
+}
+
+// What gravity adds until time.end, m/s. A beam is held: by itself it falls no farther than its length.
+double speed_by_gravity(const Case& values) {
+  const double g = speed(values.gravity.x, values.gravity.y);
+  const double free_fall = g * values.time.end;
+  return has_beam(values) && !has_drop(values) ? std::min(free_fall, std::sqrt(2 * g * values.solid.length))
+                                               : free_fall;
+}
+
+// No particle gets here in a sound run: twice what free flight at the expected speed covers, plus the largest body. A
+// beam by itself does not fly: twice its length is as good as any distance.
 double default_domain_margin(const Case& values) {
   double body = values.resolution.spacing;
   if (has_drop(values)) body = std::max(body, values.drop.diameter);
   if (values.solid.kind != SolidKind::none) body = std::max(body, values.solid.length);
-  return 2 * expected_speed(values) * values.time.end + body;
+  const double flight = 2 * expected_speed(values) * values.time.end;
+  const bool is_held = has_beam(values) && !has_drop(values);
+  return (is_held ? std::min(flight, 2 * values.solid.length) : flight) + body;
 }
 
 void fill(double& value, double automatic) {
@@ -47,18 +64,19 @@ double expected_speed(const Case& values) {
   double fastest = 0;
   if (has_drop(values)) {
     fastest = speed(values.drop.velocity_x, values.drop.velocity_y) + std::abs(values.drop.oscillation_velocity);
-    if (values.surface_tension.form != SurfaceTensionForm::none) {
+    if (values.drop.is_rigid()) fastest += std::abs(values.drop.initial_spin) * largest_radius(values);
+    if (values.drop.is_liquid() && values.surface_tension.form != SurfaceTensionForm::none) {
       fastest = std::max(
           fastest, std::sqrt(2 * values.surface_tension.coefficient / (values.fluid.density * values.drop.diameter)));
     }
   }
   if (has_beam(values)) fastest = std::max(fastest, std::abs(values.solid.initial_tip_velocity));
-  return fastest + speed(values.gravity.x, values.gravity.y) * values.time.end;
+  return fastest + speed_by_gravity(values);
 }
 
 double largest_sound_speed(const Case& values) {
-  const double liquid = has_drop(values) ? values.fluid.sound_speed : 0;
-  if (!has_beam(values)) return liquid;
+  if (!has_beam(values)) return has_drop(values) ? values.fluid.sound_speed : 0;
+  const double liquid = values.drop.is_liquid() ? values.fluid.sound_speed : 0;
   const double bulk_modulus = values.solid.youngs_modulus / (3 * (1 - 2 * values.solid.poisson_ratio));
   return std::max(liquid, std::sqrt(bulk_modulus / values.solid.density));
 }
@@ -69,11 +87,11 @@ StepBound largest_step(const Case& values) {
   const double sigma = values.surface_tension.coefficient;
   const double mu = values.fluid.viscosity;
   StepBound bound{h / (largest_sound_speed(values) + expected_speed(values)), "Eq 40 (sound)"};
-  if (has_drop(values) && values.surface_tension.form != SurfaceTensionForm::none && sigma > 0) {
+  if (values.drop.is_liquid() && values.surface_tension.form != SurfaceTensionForm::none && sigma > 0) {
     const double capillary = std::sqrt(rho * h * h * h / (2 * std::numbers::pi * sigma));  // Eq 41
     if (capillary < bound.step) bound = {capillary, "Eq 41 (capillary waves)"};
   }
-  if (has_drop(values) && mu > 0) {
+  if (values.drop.is_liquid() && mu > 0) {
     const double viscous = rho * h * h / mu;  // Eq 42
     if (viscous < bound.step) bound = {viscous, "Eq 42 (viscosity)"};
   }
@@ -86,10 +104,12 @@ void fill_derived_defaults(Case& values, const std::string& source_name) {
 
   const double d = values.resolution.spacing;
   fill(values.time.step, 0);
+  fill(values.drop.density, values.fluid.density);
   fill(values.drop.gap, std::max(0.0, values.contact.distance_ratio - 1) * d + 0.1 * d);
   if (std::isnan(values.solid.length) && !has_beam(values)) {
     values.solid.length = std::max(1.0, std::round(8 * values.drop.diameter / d)) * d;  // whole spacings
   }
+  fill(values.solid.clamp_length, 2 * values.solid.thickness);
   fill(values.drop.centre_x, default_centre(values));
   fill(values.safety.speed_limit, values.fluid.sound_speed);
   fill(values.safety.domain_margin, default_domain_margin(values));

@@ -11,11 +11,14 @@ namespace sphdrop {
 /// source_name: the case file's path; its name without ending becomes the run's name.
 void fill_derived_defaults(Case& values, const std::string& source_name);
 
-/// Upper estimate of the speeds in the run, m/s: initial ones, what gravity adds until time.end, and the speed at which
-/// surface tension draws back a sheet as thick as the drop, sqrt(2 sigma/(rho D0)).
+/// Upper estimate of the speeds in the run, m/s: initial ones, what gravity adds until time.end (a beam by itself falls
+/// no farther than its length), and the speed at which
+/// surface tension draws back a sheet as thick as the drop, sqrt(2 sigma/(rho D0)); of a rigid drop its rim's.
 double expected_speed(const Case& values);
 
 /// Largest sound speed, m/s: the liquid's, and the beam's c_s = sqrt(K/rho) with K = E/(3 (1 - 2 nu)) (method.md, 3a).
+/// A rigid drop has none; without a beam fluid.sound_speed stands in for it, as the contact's stiffness needs a time
+/// step.
 double largest_sound_speed(const Case& values);
 
 struct StepBound {

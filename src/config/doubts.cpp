@@ -39,7 +39,7 @@ Verdict unstable_artificial_stress(const Case& values) {
 }
 
 Verdict slow_sound(const Case& values) {
-  if (!has_drop(values)) return {};
+  if (!values.drop.is_liquid()) return {};
   const double fastest = expected_speed(values);
   if (values.fluid.sound_speed >= 10 * fastest) return {};
   return fmt::format(
@@ -49,12 +49,12 @@ Verdict slow_sound(const Case& values) {
 }
 
 Verdict inviscid(const Case& values) {
-  if (!has_drop(values) || values.fluid.artificial_viscosity_alpha > 0) return {};
+  if (!values.drop.is_liquid() || values.fluid.artificial_viscosity_alpha > 0) return {};
   return "fluid.artificial_viscosity_alpha = 0: the drop's particles will clump";
 }
 
 Verdict uncorrected_density(const Case& values) {
-  if (!has_drop(values) || values.fluid.density_correction_interval > 0) return {};
+  if (!values.drop.is_liquid() || values.fluid.density_correction_interval > 0) return {};
   return "fluid.density_correction_interval = 0: without the correction all particles pair up and the curvature's "
          "noise "
          "triples";

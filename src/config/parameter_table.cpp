@@ -48,6 +48,7 @@ constexpr Range either_sign(double bound) {
 constexpr std::string_view mode_words[] = {"paper"};
 constexpr std::string_view shape_words[] = {"none", "round", "square"};
 constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
+constexpr std::string_view material_words[] = {"liquid", "rigid"};
 constexpr std::string_view solid_words[] = {"none", "cantilever", "fixed_fixed_beam", "rigid_wall"};
 constexpr std::string_view trace_words[] = {"plane_strain", "two_dimensional"};
 constexpr std::string_view form_words[] = {"none", "conservative", "curvature"};
@@ -59,6 +60,7 @@ constexpr double largest_length = 100;   // m
 constexpr double largest_time = 1e4;     // s
 constexpr double largest_speed = 1e5;    // m/s
 constexpr double largest_density = 1e6;  // kg/m3
+constexpr double largest_spin = 1e9;     // rad/s
 constexpr std::int64_t most_steps = 1000000000;
 
 using C = Case;
@@ -95,7 +97,8 @@ constexpr Parameter table[] = {
     {"fluid.viscosity", "mu", "Pa s", real<&C::fluid, &C::Fluid::viscosity>(0.001, non_negative(1e4)),
      "the liquid's viscosity; enters the time step only (Eq 42)"},
     {"fluid.sound_speed", "c_f", "m/s", real<&C::fluid, &C::Fluid::sound_speed>(50.0, positive(largest_speed)),
-     "the liquid's numerical sound speed (Eq 4), about 50 times the largest speed expected"},
+     "the liquid's numerical sound speed (Eq 4), about 50 times the largest speed expected; with a rigid drop and no "
+     "beam it still sets the time step (Eq 40)"},
     {"fluid.artificial_viscosity_alpha", "alpha", "-",
      real<&C::fluid, &C::Fluid::artificial_viscosity_alpha>(0.1, non_negative(100)),
      "linear artificial viscosity of the liquid (Eq 17)"},
@@ -110,6 +113,11 @@ constexpr Parameter table[] = {
      "the drop's shape at the start"},
     {"drop.arrangement", "", "-", word<&C::drop, &C::Drop::arrangement>(arrangement_words, DropArrangement::rings),
      "how a round drop's particles start: concentric rings, or cut out of the square lattice"},
+    {"drop.material", "", "-", word<&C::drop, &C::Drop::material>(material_words, DropMaterial::liquid),
+     "liquid, or rigid = a ball that moves as one rigid body (Sec. 4.4), without surface tension and viscosity"},
+    {"drop.density", "", "kg/m3",
+     real<&C::drop, &C::Drop::density>(Automatic{"fluid.density"}, positive(largest_density)),
+     "a rigid drop's density"},
     {"drop.diameter", "D0", "m", real<&C::drop, &C::Drop::diameter>(1e-3, positive(largest_length)),
      "diameter of a round drop, side of a square one"},
     {"drop.velocity", "U0", "m/s",
@@ -123,7 +131,7 @@ constexpr Parameter table[] = {
          Automatic{"cantilever: length - diameter/2; fixed_fixed_beam: mid-span; else 0"}, either_sign(largest_length)),
      "x of the drop's centre; 0 is the left clamp's edge, or the middle of a rigid wall"},
     {"drop.jitter", "", "d_ini", real<&C::drop, &C::Drop::jitter>(0.01, {0, true, 0.3, true}),
-     "largest random displacement of a lattice start, in spacings"},
+     "largest random displacement of a lattice start, in spacings; a rigid drop has none"},
     {"drop.seed", "", "-", integer<&C::drop, &C::Drop::seed>(1, 0, std::numeric_limits<std::int64_t>::max()),
      "seed of the jitter"},
     {"drop.oscillation_velocity", "V0", "m/s",
@@ -132,6 +140,8 @@ constexpr Parameter table[] = {
     {"drop.oscillation_radius", "r0", "m",
      real<&C::drop, &C::Drop::oscillation_radius>(0.25e-3, positive(largest_length)),
      "decay length of the oscillating drop's initial velocity field"},
+    {"drop.initial_spin", "", "rad/s", real<&C::drop, &C::Drop::initial_spin>(0.0, either_sign(largest_spin)),
+     "a rigid drop's angular velocity at the start, counterclockwise"},
 
     {"solid.kind", "", "-", word<&C::solid, &C::Solid::kind>(solid_words, SolidKind::none), "what the drop meets"},
     {"solid.length", "L", "m",
@@ -158,10 +168,14 @@ constexpr Parameter table[] = {
     {"solid.artificial_stress_coefficient", "eps", "-",
      real<&C::solid, &C::Solid::artificial_stress_coefficient>(0.2, non_negative(1)),
      "artificial stress (Eq 20); the paper's 0.5 is unstable at h = 1.2 d"},
-    {"solid.clamp_length", "", "m", real<&C::solid, &C::Solid::clamp_length>(0.5e-3, positive(largest_length)),
+    {"solid.clamp_length", "", "m",
+     real<&C::solid, &C::Solid::clamp_length>(Automatic{"2 thicknesses"}, positive(2 * largest_length)),
      "length of a clamp's strips"},
     {"solid.clamp_layers", "", "-", integer<&C::solid, &C::Solid::clamp_layers>(3, 1, 1000),
      "particles across a clamp's strip"},
+    {"solid.damping_rate", "", "1/s", real<&C::solid, &C::Solid::damping_rate>(0.0, non_negative(1e6)),
+     "mass-proportional damping of the beam, a = -damping_rate v, to bring it to rest: of a mode of angular frequency "
+     "omega the damping ratio is damping_rate/(2 omega), so that 2 omega is critical; 0 = none"},
     {"solid.initial_tip_velocity", "", "m/s",
      real<&C::solid, &C::Solid::initial_tip_velocity>(0.0, either_sign(largest_speed)),
      "speed of a cantilever's tip in its first bending mode at the start; upwards is positive"},

@@ -58,7 +58,8 @@ void PeakTracker::read_numbers(NumberReader& reader) {
 }
 
 void ReboundTracker::add(bool in_contact, double vertical_velocity) {
-  if (in_contact && !touched_) before_ = vertical_velocity;
+  // The first sample in contact may already be slowed down: a hard body is stopped within a few of them.
+  if (!touched_ && (!in_contact || before_ == 0.0)) before_ = vertical_velocity;
   // The force of the last instant in contact acts on the way to the next one, so only that one has the final velocity.
   if (!in_contact && in_contact_) after_ = vertical_velocity;
   touched_ = touched_ || in_contact;

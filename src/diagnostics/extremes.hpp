@@ -43,7 +43,7 @@ class ReboundTracker {
   /// Vertical velocity of the drop's centre of mass (m/s) at an instant, before the contact force of that instant acts.
   void add(bool in_contact, double vertical_velocity);
 
-  /// Empty until contact has ended; every later contact starts it anew from the first contact's velocity.
+  /// Of the last velocity before the first contact. Empty until contact has ended; every later contact starts it anew.
   std::optional<double> restitution() const;
 
   void append_numbers(std::vector<double>& numbers) const;

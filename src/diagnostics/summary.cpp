@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -77,11 +78,18 @@ void write_contact(Text& text, const RunSummary::Contact& contact) {
 }
 
 void write_drop(Text& text, const RunSummary::Drop& drop) {
-  text.heading("drop");
-  text.entry("largest width",
-             fmt::format("{:.4f} mm = {:.3f} D0 at {}", to_milli * drop.largest_width.value,
-                         drop.largest_width.value / drop.initial_diameter, milliseconds(drop.largest_width.time)));
+  text.heading(drop.rigid_motion ? "rigid drop" : "drop");
+  if (!drop.rigid_motion)
+    text.entry("largest width",
+               fmt::format("{:.4f} mm = {:.3f} D0 at {}", to_milli * drop.largest_width.value,
+                           drop.largest_width.value / drop.initial_diameter, milliseconds(drop.largest_width.time)));
   if (drop.restitution) text.entry("restitution", fmt::format("{:.3f}", *drop.restitution));
+  if (!drop.rigid_motion) return;
+  const RunSummary::RigidMotion& motion = *drop.rigid_motion;
+  text.entry("velocity at the end", fmt::format("({:.4f}, {:.4f}) m/s", motion.velocity.x, motion.velocity.y));
+  text.entry("spin",
+             fmt::format("{:.3f} rad/s at the start, {:.3f} at the end", motion.initial_spin, motion.final_spin));
+  text.entry("turned by", fmt::format("{:.4f} degrees", motion.angle * 180.0 / std::numbers::pi));
 }
 
 void write_beam(Text& text, const RunSummary::Beam& beam) {

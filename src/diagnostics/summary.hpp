@@ -43,10 +43,17 @@ struct RunSummary {
   };
   std::optional<Contact> contact;
 
+  struct RigidMotion {
+    Vector velocity;                          ///< at the end, m/s
+    double angle = 0;                         ///< turned by, rad, counterclockwise
+    double initial_spin = 0, final_spin = 0;  ///< rad/s, counterclockwise
+  };
+
   struct Drop {
     double initial_diameter = 0;  ///< D0, m
     Peak largest_width;           ///< s, m
     std::optional<double> restitution;
+    std::optional<RigidMotion> rigid_motion;  ///< of a rigid drop; its width goes unsaid
   };
   std::optional<Drop> drop;
 

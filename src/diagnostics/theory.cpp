@@ -12,13 +12,21 @@ using std::numbers::pi;
 constexpr double cantilever_root = 1.8751040687119611;   // 1 + cos x cosh x = 0
 constexpr double fixed_fixed_root = 4.7300407448627040;  // 1 - cos x cosh x = 0
 
-/// root^2 sqrt(E I / (M_b L^3 (1 - nu^2))) with I = H^3/12 per metre of depth (Eq 43).
-double angular_frequency(const BeamProperties& beam, double root) {
+/// E I/(1 - nu^2) with I = H^3/12 per metre of depth, N m.
+double bending_stiffness(const BeamProperties& beam) {
   const double second_moment = beam.thickness * beam.thickness * beam.thickness / 12.0;
-  const double bending_stiffness =
-      beam.youngs_modulus * second_moment / (1.0 - beam.poisson_ratio * beam.poisson_ratio);
+  return beam.youngs_modulus * second_moment / (1.0 - beam.poisson_ratio * beam.poisson_ratio);
+}
+
+/// root^2 sqrt(E I / (M_b L^3 (1 - nu^2))) (Eq 43).
+double angular_frequency(const BeamProperties& beam, double root) {
   const double length_cubed = beam.length * beam.length * beam.length;
-  return root * root * std::sqrt(bending_stiffness / (beam_mass(beam) * length_cubed));
+  return root * root * std::sqrt(bending_stiffness(beam) / (beam_mass(beam) * length_cubed));
+}
+
+/// w L^4/D, m.
+double depth_scale_under_weight(const BeamProperties& beam, double gravity) {
+  return beam_mass(beam) * gravity * beam.length * beam.length * beam.length / bending_stiffness(beam);
 }
 
 }  // namespace
@@ -33,6 +41,18 @@ double cantilever_angular_frequency(const BeamProperties& beam) {
 
 double fixed_fixed_angular_frequency(const BeamProperties& beam) {
   return angular_frequency(beam, fixed_fixed_root);
+}
+
+double cantilever_depth_under_weight(const BeamProperties& beam, double gravity) {
+  return depth_scale_under_weight(beam, gravity) / 8.0;
+}
+
+double fixed_fixed_depth_under_weight(const BeamProperties& beam, double gravity) {
+  return depth_scale_under_weight(beam, gravity) / 384.0;
+}
+
+double damping_ratio(double rate, double angular_frequency) {
+  return rate / (2.0 * angular_frequency);
 }
 
 double period_of(double angular_frequency) {

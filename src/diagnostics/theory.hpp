@@ -23,6 +23,17 @@ double cantilever_angular_frequency(const BeamProperties& beam);
 /// x, 4.73004.
 double fixed_fixed_angular_frequency(const BeamProperties& beam);
 
+/// How far the free end of a cantilever sinks under its own weight at rest, m: w L^4/(8 D) with w = rho g H and D =
+/// E H^3/(12 (1 - nu^2)), for slopes that are small. gravity g in m/s2, a positive depth for a positive g.
+double cantilever_depth_under_weight(const BeamProperties& beam, double gravity);
+
+/// The same of the middle of a beam clamped at both ends: w L^4/(384 D).
+double fixed_fixed_depth_under_weight(const BeamProperties& beam, double gravity);
+
+/// Share of the critical damping that damping in proportion to mass, a = -rate v, gives to a mode: rate/(2 omega). 1/s
+/// and rad/s.
+double damping_ratio(double rate, double angular_frequency);
+
 /// Period of an angular frequency, s: tau0 where that is the cantilever's (Eq 44).
 double period_of(double angular_frequency);
 

@@ -18,6 +18,8 @@ class FluidParticles : public ParticleSet {
                                 "compressive energy added by the density correction so far"};
   VectorField detection_position{*this, "detection_position", "m", Role::state,
                                  "position when the surface was last detected"};
+  VectorField body_offset{*this, "body_offset", "m", Role::state,
+                          "place in a rigid body: position from its mass centre at angle 0"};
 
   VectorField velocity{*this, "velocity", "m/s", Role::ghosted | Role::written, "velocity"};
   ScalarField density{*this, "density", "kg/m3", Role::ghosted | Role::written, "density", 1.0};

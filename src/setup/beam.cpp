@@ -155,14 +155,15 @@ InitialSolid build_beam(const Case::Solid& solid, double spacing) {
   InitialSolid initial;
   append_particles(lattice, solid.density * spacing * spacing, initial);
   initial.top = lattice.rows * spacing;
+  initial.middle_probe = columns_of_rows(lattice, lattice.left_clamp_columns + (lattice.free_columns - 1) / 2,
+                                         lattice.left_clamp_columns + lattice.free_columns / 2);
   if (is_cantilever) {
     initial.contact_polylines = {cantilever_boundary(lattice)};
     initial.deflection_probe = columns_of_rows(lattice, lattice.last_free_column(), lattice.last_free_column());
     if (solid.initial_tip_velocity != 0.0) set_bending_velocity(lattice, solid.initial_tip_velocity, initial);
   } else {
     initial.contact_polylines = {upper_boundary(lattice), lower_boundary(lattice)};
-    initial.deflection_probe = columns_of_rows(lattice, lattice.left_clamp_columns + (lattice.free_columns - 1) / 2,
-                                               lattice.left_clamp_columns + lattice.free_columns / 2);
+    initial.deflection_probe = initial.middle_probe;
   }
   return initial;
 }

@@ -12,8 +12,8 @@ namespace sphdrop {
 ///
 /// The boundary runs along the strips' outer and free faces and the free surface of the beam; it is open behind the
 /// clamps. Cantilever: one polyline, over the top to the free end and back along the underside, probe: the last column.
-/// Beam fixed at both ends: the top, left to right, and the underside, right to left; probe: the column or the two
-/// columns in the middle of the span.
+/// Beam fixed at both ends: the top, left to right, and the underside, right to left; probe: the middle of the span.
+/// There the middle probe of both is: the column or the two columns about x = L/2.
 ///
 /// Throws SetupError where L or H is not a whole number of spacings, H has fewer than two rows or the clamp is empty,
 /// and for an initial tip velocity of any solid but the cantilever.

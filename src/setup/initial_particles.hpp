@@ -25,6 +25,8 @@ struct InitialSolid {
   std::vector<std::vector<std::int32_t>> contact_polylines;
   /// The particles whose mean displacement is the deflection delta(t); ascending.
   std::vector<std::int32_t> deflection_probe;
+  /// Those of mid-span, ascending; the same as deflection_probe for a beam fixed at both ends.
+  std::vector<std::int32_t> middle_probe;
   std::size_t mobile_count = 0;
   double top = 0;  ///< y of the surface a drop falls on, m
 };

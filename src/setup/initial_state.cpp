@@ -8,6 +8,7 @@
 
 #include "contact/contact_solver.hpp"
 #include "contact/contact_surface.hpp"
+#include "rigid_body/rigid_body.hpp"
 #include "setup/beam.hpp"
 #include "setup/droplet.hpp"
 #include "setup/setup_error.hpp"
@@ -51,14 +52,16 @@ InitialSolid build_solid(const Case& input) {
 /// About the origin.
 DropParticles build_drop(const Case& input) {
   const double d = input.resolution.spacing;
-  const double density = input.fluid.density;
+  const double density = input.drop.is_rigid() ? input.drop.density : input.fluid.density;
   if (input.drop.shape == DropShape::none) return {};
   const bool is_round = input.drop.shape == DropShape::round;
   if (is_round && input.drop.arrangement == DropArrangement::rings)
     return round_drop_of_rings(0.5 * input.drop.diameter, d, density);
   DropParticles drop = is_round ? round_drop_of_lattice(0.5 * input.drop.diameter, d, density)
                                 : square_drop(input.drop.diameter, d, density);
-  if (input.drop.jitter != 0.0) jitter_positions(drop.positions, input.drop.jitter * d, input.drop.seed);
+  // Jitter breaks the symmetric clumps of a liquid; a rigid drop has none, and keeps an even surface.
+  if (input.drop.jitter != 0.0 && !input.drop.is_rigid())
+    jitter_positions(drop.positions, input.drop.jitter * d, input.drop.seed);
   return drop;
 }
 
@@ -90,10 +93,12 @@ InitialFluid place_drop(const Case& input, const DropParticles& drop, Vector cen
     throw SetupError("an oscillating drop needs an oscillation radius greater than 0");
   InitialFluid fluid;
   fluid.masses = drop.masses;
+  const Vector mass_centre = input.drop.is_rigid() ? mass_properties(drop.positions, drop.masses).centre : Vector{};
   for (const Vector& from_centre : drop.positions) {
     Vector velocity{input.drop.velocity_x, input.drop.velocity_y};
     if (input.drop.oscillation_velocity != 0.0)
       velocity += oscillation_velocity(from_centre, input.drop.oscillation_velocity, input.drop.oscillation_radius);
+    if (input.drop.is_rigid()) velocity = rigid_velocity(velocity, input.drop.initial_spin, from_centre - mass_centre);
     fluid.positions.push_back(centre + from_centre);
     fluid.velocities.push_back(velocity);
   }

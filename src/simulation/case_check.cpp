@@ -59,10 +59,14 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
       communicator.min(static_cast<std::int64_t>(simulation.fluid().owned_count() + simulation.solid().owned_count()));
 
   std::string text = fmt::format("case                {}\n", c.name);
-  text += fmt::format("particles           {} liquid + {} solid = {}\n", fluid, solid, fluid + solid);
+  text += fmt::format("particles           {} {} + {} solid = {}\n", fluid, c.drop.is_rigid() ? "rigid drop" : "liquid",
+                      solid, fluid + solid);
   text += fmt::format("spacing d           {:.6g} mm, smoothing length {:.6g} mm\n", 1e3 * c.resolution.spacing,
                       1e3 * simulation.parameters().smoothing_length);
-  text += fmt::format("time step           {:.4g} ns{}\n", 1e9 * step, c.time.step > 0 ? "" : " (Eqs 40-42)");
+  text += fmt::format("time step           {:.4g} ns{}\n", 1e9 * step,
+                      c.time.step > 0     ? ""
+                      : c.drop.is_rigid() ? " (Eq 40)"
+                                          : " (Eqs 40-42)");
   text += fmt::format("steps               {:.0f} for {:.6g} ms\n", steps, 1e3 * c.time.end);
   text += fmt::format("memory              {:.3g} MB for particles and lists, all ranks\n", 1e-6 * bytes);
   text += fmt::format("expected wall time  {} on {} rank{} ({:.3g} us a step, measured over {})\n",
@@ -75,7 +79,7 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
       distribution.quality().occupied_cells);
 
   const double speed = std::hypot(c.drop.velocity_x, c.drop.velocity_y);
-  if (c.drop.shape != DropShape::none) {
+  if (c.drop.is_liquid()) {
     const double sigma = c.surface_tension.coefficient;
     if (speed > 0 && sigma > 0)
       text += fmt::format("Weber number        {:.4g}\n", weber_number(c.fluid.density, speed, c.drop.diameter, sigma));
@@ -87,16 +91,31 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
           speed * c.drop.diameter * 16 /
               (c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length));
   }
+  if (c.drop.is_rigid()) {
+    const RigidBody& body = simulation.rigid_body().body();
+    text += fmt::format("rigid drop          {:.6g} kg/m, moment of inertia {:.6g} kg m2/m\n", body.mass,
+                        body.moment_of_inertia);
+  }
   if (c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam) {
     const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
                               c.solid.thickness};
     const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
-    text += fmt::format(
-        "beam's first period {:.4g} ms in theory (Eqs 43, 44)\n",
-        1e3 * period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam)));
+    const double omega = is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam);
+    text += fmt::format("beam's first period {:.4g} ms in theory (Eqs 43, 44)\n", 1e3 * period_of(omega));
+    if (is_cantilever && c.solid.initial_tip_velocity != 0)
+      text += fmt::format("swing of its end    {:.4g} mm to either side in theory\n",
+                          1e3 * std::abs(c.solid.initial_tip_velocity) / omega);
+    if (c.gravity.y < 0)
+      text += fmt::format("depth under weight  {:.4g} mm of {} at rest, in theory for small slopes\n",
+                          1e3 * (is_cantilever ? cantilever_depth_under_weight(beam, -c.gravity.y)
+                                               : fixed_fixed_depth_under_weight(beam, -c.gravity.y)),
+                          is_cantilever ? "the free end" : "mid-span");
+    if (c.solid.damping_rate > 0)
+      text += fmt::format("damping of the beam {:.4g} of critical in its first mode\n",
+                          damping_ratio(c.solid.damping_rate, omega));
     if (is_cantilever && c.drop.shape == DropShape::round && c.drop.velocity_y < 0) {
       const double depth =
-          cantilever_largest_deflection(beam, round_drop_mass(c.fluid.density, c.drop.diameter), -c.drop.velocity_y);
+          cantilever_largest_deflection(beam, round_drop_mass(c.drop.density, c.drop.diameter), -c.drop.velocity_y);
       text += fmt::format("largest deflection  {:.4g} mm by Eq 46, {:.3g} of the length\n", 1e3 * depth,
                           relative_deflection(depth, c.solid.length));
     }

@@ -13,7 +13,8 @@ ContactStep::ContactStep(const Communicator& communicator, const Case& input,
     : communicator_(communicator),
       stiffness_(input.contact.stiffness),
       contact_distance_(input.contact.distance_ratio * input.resolution.spacing),
-      overlap_limit_(input.contact.overlap_limit) {
+      overlap_limit_(input.contact.overlap_limit),
+      drop_is_rigid_(input.drop.is_rigid()) {
   for (const auto& polyline : polylines) vertex_ids_.insert(vertex_ids_.end(), polyline.begin(), polyline.end());
   std::sort(vertex_ids_.begin(), vertex_ids_.end());
   vertex_ids_.erase(std::unique(vertex_ids_.begin(), vertex_ids_.end()), vertex_ids_.end());
@@ -140,24 +141,38 @@ void ContactStep::work(double time, double step, double kick) {
     last_moment_ = summary_.moment_on_solid;
     record_.add(time, kick, summary_.count, summary_.force_on_solid);
   }
-  fluid_gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
+  if (!drop_is_rigid_)
+    fluid_gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
   solid_gather_.start_scatter(std::array<const void*, 2>{force_x_.data(), force_y_.data()});
 }
 
 void ContactStep::finish(FluidParticles& fluid, SolidParticles& solid) {
   if (segments_.empty()) return;
-  fluid_gather_.finish_scatter(std::array<void*, 2>{returned_fluid_x_.data(), returned_fluid_y_.data()});
+  if (drop_is_rigid_)
+    share_load();
+  else
+    accelerate_liquid(fluid);
   solid_gather_.finish_scatter(std::array<void*, 2>{returned_solid_x_.data(), returned_solid_y_.data()});
-  for (const std::int32_t k : fluid_rows_) {
-    const auto row = static_cast<std::size_t>(k);
-    fluid.acceleration.x[row] += returned_fluid_x_[row];
-    fluid.acceleration.y[row] += returned_fluid_y_[row];
-  }
   for (const std::int32_t k : solid_rows_) {
     const auto row = static_cast<std::size_t>(k);
     solid.acceleration.x[row] += returned_solid_x_[row] / solid.mass[row];
     solid.acceleration.y[row] += returned_solid_y_[row] / solid.mass[row];
   }
+}
+
+void ContactStep::accelerate_liquid(FluidParticles& fluid) {
+  fluid_gather_.finish_scatter(std::array<void*, 2>{returned_fluid_x_.data(), returned_fluid_y_.data()});
+  for (const std::int32_t k : fluid_rows_) {
+    const auto row = static_cast<std::size_t>(k);
+    fluid.acceleration.x[row] += returned_fluid_x_[row];
+    fluid.acceleration.y[row] += returned_fluid_y_[row];
+  }
+}
+
+void ContactStep::share_load() {
+  load_numbers_.assign({summary_.force_on_solid.x, summary_.force_on_solid.y, summary_.moment_on_solid});
+  communicator_.broadcast(load_numbers_, owner_);
+  load_on_solid_ = {{load_numbers_[0], load_numbers_[1]}, load_numbers_[2]};
 }
 
 std::int64_t ContactStep::deepest_particle() const {

@@ -15,6 +15,12 @@
 
 namespace sphdrop {
 
+/// A force, N/m, and its moment about the origin, N m/m.
+struct Load {
+  Vector force;
+  double moment = 0;
+};
+
 /// In a step: start(), work(), finish(). Only the liquid within reach of the boundary and the boundary within reach of
 /// the liquid are gathered.
 class ContactStep {
@@ -31,8 +37,11 @@ class ContactStep {
   /// At the owner: forces at `time`, where Eq 24 takes the step to come, and the impulse they give over the time they
   /// act, `kick`; starts sending them back. All in s.
   void work(double time, double step, double kick);
-  /// Adds the accelerations to liquid and boundary rows.
+  /// Adds the accelerations to liquid and boundary rows; collective if the drop is rigid.
   void finish(FluidParticles& fluid, SolidParticles& solid);
+
+  /// On every rank, of the step last finished; known only where the drop is rigid, which takes the opposite.
+  Load load_on_solid() const { return load_on_solid_; }
 
   int owner() const { return owner_; }
   /// At the owner, of the step last worked on.
@@ -50,9 +59,12 @@ class ContactStep {
  private:
   ContactParameters parameters(double step) const;
   void move_record(int new_owner);
+  void accelerate_liquid(FluidParticles& fluid);
+  void share_load();
 
   const Communicator& communicator_;
   double stiffness_, contact_distance_, overlap_limit_;
+  bool drop_is_rigid_;
   std::vector<std::int64_t> vertex_ids_;  // ascending; a vertex' index is its place here
   std::vector<Segment> segments_;
 
@@ -60,6 +72,9 @@ class ContactStep {
   InterfaceGather fluid_gather_, solid_gather_;
   std::vector<std::int32_t> fluid_rows_, solid_rows_;
   std::vector<double> returned_fluid_x_, returned_fluid_y_, returned_solid_x_, returned_solid_y_;
+
+  Load load_on_solid_;
+  std::vector<double> load_numbers_;
 
   // At the owner.
   ContactSolver solver_;

@@ -11,13 +11,21 @@ namespace sphdrop {
 
 namespace {
 
-// What a particle costs in a step, relative to others: the solid's pair sums are about half as long again.
-constexpr std::int32_t fluid_load = 2, solid_load = 3;
+// What a particle costs in a step, relative to others: the solid's pair sums are about half as long again as the
+// liquid's, and a rigid drop's particles have none.
+struct Loads {
+  std::int32_t drop, solid;
+};
+constexpr Loads loads_with_liquid{2, 3}, loads_with_rigid_drop{1, 20};
 
 }  // namespace
 
-Distribution::Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold)
-    : communicator_(communicator), range_(range), partition_(communicator, range.list_reach(), imbalance_threshold) {}
+Distribution::Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
+                           bool drop_is_rigid)
+    : communicator_(communicator),
+      range_(range),
+      drop_is_rigid_(drop_is_rigid),
+      partition_(communicator, range.list_reach(), imbalance_threshold) {}
 
 void Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bool force) {
   std::vector<double> x, y;
@@ -29,8 +37,9 @@ void Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
       load.push_back(cost);
     });
   };
-  collect(fluid, fluid_load);
-  collect(solid, solid_load);
+  const Loads loads = drop_is_rigid_ ? loads_with_rigid_drop : loads_with_liquid;
+  collect(fluid, loads.drop);
+  collect(solid, loads.solid);
   partition_.update(x, y, load, force);
 
   std::vector<int> destination(x.size());
@@ -38,7 +47,9 @@ void Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
   const std::size_t fluid_rows = fluid.owned_count();
   migrate(communicator_, fluid, std::span(destination).first(fluid_rows), tags::migration);
   migrate(communicator_, solid, std::span(destination).subspan(fluid_rows), tags::migration + 1);
-  make_fluid_ghosts(fluid);
+  if (!drop_is_rigid_) make_fluid_ghosts(fluid);
+  std::copy(fluid.position.x.begin(), fluid.position.x.end(), fluid.list_position.x.begin());
+  std::copy(fluid.position.y.begin(), fluid.position.y.end(), fluid.list_position.y.begin());
   make_solid_ghosts(solid);
 }
 
@@ -76,8 +87,6 @@ void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
   const auto end = static_cast<std::int32_t>(owned);
   inner_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {0, inner}, range_.list_reach());
   border_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {inner, end}, range_.list_reach());
-  std::copy(fluid.position.x.begin(), fluid.position.x.end(), fluid.list_position.x.begin());
-  std::copy(fluid.position.y.begin(), fluid.position.y.end(), fluid.list_position.y.begin());
 }
 
 void Distribution::make_solid_ghosts(SolidParticles& solid) {

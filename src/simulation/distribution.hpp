@@ -29,7 +29,9 @@ struct InteractionRange {
 /// The particles' distribution over ranks, remade by redistribute() and used by every step in between.
 class Distribution {
  public:
-  Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold);
+  /// The particles of a drop that is rigid have no neighbours and no ghosts.
+  Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
+               bool drop_is_rigid);
 
   /// Collective. Moves every particle to the rank that owns its place (repartitioning if the loads ask for it, or
   /// `force`), makes ghosts of what other ranks hold within reach, and lists the neighbours. Needs the state columns of
@@ -54,6 +56,7 @@ class Distribution {
 
   const Communicator& communicator_;
   InteractionRange range_;
+  bool drop_is_rigid_;
   DomainPartition partition_;
   ExchangePlan fluid_halo_, solid_halo_, wide_halo_;
   SlicedNeighbours inner_fluid_, border_fluid_;

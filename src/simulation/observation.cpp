@@ -41,6 +41,8 @@ enum Sum : std::size_t {
   solid_heat,
   solid_artificial,
   probe_deflection,
+  probe_displacement_x,
+  middle_probe_deflection,
   sum_count
 };
 using Sums = std::array<ExactSum, sum_count>;
@@ -48,6 +50,7 @@ using Sums = std::array<ExactSum, sum_count>;
 void add_fluid(const Simulation& simulation, Sums& sums) {
   const FluidParticles& f = simulation.fluid();
   const Case& c = simulation.input();
+  const double rest_density = c.drop.is_rigid() ? c.drop.density : c.fluid.density;
   f.for_each_owned([&](std::size_t row) {
     const double m = f.mass[row];
     const Vector x = f.position.at(row), v = f.velocity.at(row);
@@ -61,7 +64,7 @@ void add_fluid(const Simulation& simulation, Sums& sums) {
     sums[fluid_momentum_y].add(m * v.y);
     sums[fluid_spin].add(m * cross(x, v));
     sums[fluid_kinetic].add(kinetic_energy(m, v));
-    sums[fluid_compressive].add(m * compressive_energy_per_mass(f.density[row], c.fluid.density, c.fluid.sound_speed));
+    sums[fluid_compressive].add(m * compressive_energy_per_mass(f.density[row], rest_density, c.fluid.sound_speed));
     sums[fluid_heat].add(f.dissipated_energy[row]);
     sums[fluid_correction].add(f.correction_energy[row]);
   });
@@ -72,7 +75,9 @@ void add_solid(const Simulation& simulation, Sums& sums) {
   const Case& c = simulation.input();
   const ElasticMaterial& material = simulation.parameters().solid.material;
   const bool plane_strain = c.solid.deviatoric_trace == DeviatoricTrace::plane_strain;
-  const std::vector<std::int64_t>& probe = simulation.deflection_probe();
+  const auto is_among = [](const std::vector<std::int64_t>& probe, std::int64_t id) {
+    return std::binary_search(probe.begin(), probe.end(), id);
+  };
   s.for_each_owned([&](std::size_t row) {
     const double m = s.mass[row];
     const Vector x = s.position.at(row), v = s.velocity.at(row);
@@ -91,8 +96,12 @@ void add_solid(const Simulation& simulation, Sums& sums) {
                             m * compressive_energy_per_mass(s.density[row], material.density, material.sound_speed()));
     sums[solid_heat].add(s.dissipated_energy[row]);
     sums[solid_artificial].add(s.artificial_stress_work[row]);
-    if (std::binary_search(probe.begin(), probe.end(), s.id[row]))
-      sums[probe_deflection].add(x.y - s.reference_position.y[row]);
+    const Vector displacement = x - s.reference_position.at(row);
+    if (is_among(simulation.deflection_probe(), s.id[row])) {
+      sums[probe_deflection].add(displacement.y);
+      sums[probe_displacement_x].add(displacement.x);
+    }
+    if (is_among(simulation.middle_probe(), s.id[row])) sums[middle_probe_deflection].add(displacement.y);
   });
 }
 
@@ -103,6 +112,8 @@ struct Extent {
 // Width and height from the extreme particles, half a spacing beyond each.
 Extent drop_extent(const Simulation& simulation, double& density_error) {
   const FluidParticles& f = simulation.fluid();
+  const Case& c = simulation.input();
+  const double rest_density = c.drop.is_rigid() ? c.drop.density : c.fluid.density;
   std::array<double, 5> largest{-infinity, -infinity, -infinity, -infinity, 0.0};
   f.for_each_owned([&](std::size_t row) {
     const Vector x = f.position.at(row);
@@ -110,7 +121,7 @@ Extent drop_extent(const Simulation& simulation, double& density_error) {
     largest[1] = std::max(largest[1], x.x);
     largest[2] = std::max(largest[2], -x.y);
     largest[3] = std::max(largest[3], x.y);
-    largest[4] = std::max(largest[4], std::abs(f.density[row] / simulation.input().fluid.density - 1.0));
+    largest[4] = std::max(largest[4], std::abs(f.density[row] / rest_density - 1.0));
   });
   simulation.communicator().max_in_place(largest);
   density_error = largest[4];
@@ -146,6 +157,11 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
   const Vector quarter = quarter_centre(simulation, centre);
   o.quarter_centre_x = quarter.x;
   o.quarter_centre_y = quarter.y;
+  if (simulation.rigid_body().is_enabled()) {
+    o.drop_angle = simulation.rigid_body().body().angle;
+    o.drop_spin = simulation.rigid_body().body().spin;
+    return;
+  }
   o.mean_pressure = sum[fluid_pressure] / static_cast<double>(simulation.fluid_total());
 
   if (simulation.surface_tension().is_enabled()) {
@@ -164,6 +180,15 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     o.surface = simulation.input().surface_tension.coefficient * o.curve_length;
     o.reconnection = simulation.input().surface_tension.coefficient * tension.reconnected_length();
   }
+}
+
+void observe_beam(const Simulation& simulation, const std::array<double, sum_count>& sum, Observation& o) {
+  if (simulation.deflection_probe().empty()) return;
+  const auto probe_size = static_cast<double>(simulation.deflection_probe().size());
+  o.deflection = sum[probe_deflection] / probe_size;
+  o.middle_deflection = sum[middle_probe_deflection] / static_cast<double>(simulation.middle_probe().size());
+  if (simulation.input().solid.kind == SolidKind::cantilever)
+    o.tip_displacement_x = sum[probe_displacement_x] / probe_size;
 }
 
 void observe_contact(const Simulation& simulation, Observation& o) {
@@ -202,8 +227,7 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.step = static_cast<double>(simulation.step());
   o.time_step = simulation.time_step();
   if (simulation.fluid_total() > 0) observe_drop(simulation, sum, o);
-  if (!simulation.deflection_probe().empty())
-    o.deflection = sum[probe_deflection] / static_cast<double>(simulation.deflection_probe().size());
+  observe_beam(simulation, sum, o);
   observe_contact(simulation, o);
 
   const Case& c = simulation.input();

@@ -13,8 +13,9 @@ namespace sphdrop {
 /// of them. NaN for what the case does not have.
 struct Observation {
   double time, step, time_step;
-  double drop_width, drop_height, deflection;
+  double drop_width, drop_height, deflection, middle_deflection, tip_displacement_x;
   double drop_centre_x, drop_centre_y, drop_velocity_x, drop_velocity_y;
+  double drop_angle, drop_spin;
   double drop_elongation, quarter_centre_x, quarter_centre_y;
   double mean_pressure, curve_length, mean_curvature, curvature_scatter, curve_count, tension_net_force;
   double contact_count, contact_force_x, contact_force_y, contact_impulse_x, contact_impulse_y;

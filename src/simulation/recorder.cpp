@@ -154,9 +154,13 @@ RunSummary Recorder::summary() const {
   const bool is_beam = c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam;
   if (has_drop && has_solid) r.contact = contact_summary(ContactRecord::from_numbers(record));
 
-  if (has_drop && extremes_.width().sampled())
-    r.drop = RunSummary::Drop{c.drop.diameter, *extremes_.width().sampled(),
-                              has_solid ? extremes_.restitution() : std::nullopt};
+  if (has_drop && extremes_.width().sampled()) {
+    r.drop = RunSummary::Drop{
+        c.drop.diameter, *extremes_.width().sampled(), has_solid ? extremes_.restitution() : std::nullopt, {}};
+    if (c.drop.is_rigid() && last_)
+      r.drop->rigid_motion = RunSummary::RigidMotion{
+          {last_->drop_velocity_x, last_->drop_velocity_y}, last_->drop_angle, first_->drop_spin, last_->drop_spin};
+  }
 
   if (is_beam && extremes_.depth().sampled()) {
     const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
@@ -168,9 +172,9 @@ RunSummary Recorder::summary() const {
     const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
     b.theory_period =
         period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam));
-    if (is_cantilever && has_drop && c.drop.velocity_y < 0)
+    if (is_cantilever && c.drop.shape == DropShape::round && c.drop.velocity_y < 0)
       b.theory_deflection =
-          cantilever_largest_deflection(beam, round_drop_mass(c.fluid.density, c.drop.diameter), -c.drop.velocity_y);
+          cantilever_largest_deflection(beam, round_drop_mass(c.drop.density, c.drop.diameter), -c.drop.velocity_y);
     r.beam = b;
   }
   if (first_ && last_) {
@@ -188,6 +192,8 @@ RunSummary Recorder::summary() const {
     };
     if (has_drop) {
       term("kinetic, drop", &Observation::kinetic_fluid);
+    }
+    if (c.drop.is_liquid()) {
       term("compression, drop", &Observation::compressive);
       term("surface", &Observation::surface);
       term("dissipated, drop", &Observation::dissipated_fluid);

@@ -11,26 +11,33 @@ namespace sphdrop {
 
 namespace {
 
+enum class Body : std::int64_t { liquid, rigid_drop, solid };
+
+Body drop_of(const Case& input) {
+  return input.drop.is_rigid() ? Body::rigid_drop : Body::liquid;
+}
+
 // A particle that must not be computed on; the lowest id over all ranks is the one that is named.
 struct Suspect {
   std::int64_t id = -1;
   double x = 0, y = 0, velocity_x = 0, velocity_y = 0, density = 0;
-  std::int64_t is_solid = 0;
+  Body body = Body::liquid;
 };
 
 template <class Set>
-void find_suspects(const Set& set, double speed_limit, std::int64_t is_solid, std::vector<Suspect>& found) {
+void find_suspects(const Set& set, double speed_limit, Body body, std::vector<Suspect>& found) {
   set.for_each_owned([&](std::size_t row) {
     const Vector v = set.staggered_velocity.at(row);
     const Vector p = set.position.at(row);
     const bool sound = squared_length(v) <= speed_limit * speed_limit && std::isfinite(p.x) && std::isfinite(p.y);
-    if (!sound) found.push_back({set.id[row], p.x, p.y, v.x, v.y, set.staggered_density[row], is_solid});
+    if (!sound) found.push_back({set.id[row], p.x, p.y, v.x, v.y, set.staggered_density[row], body});
   });
 }
 
 std::string describe(const Suspect& s) {
+  static constexpr const char* names[] = {"liquid", "rigid drop's", "solid"};
   return fmt::format("{} particle {} at ({:.6g}, {:.6g}) m, velocity ({:.6g}, {:.6g}) m/s, density {:.6g} kg/m3",
-                     s.is_solid ? "solid" : "liquid", s.id, s.x, s.y, s.velocity_x, s.velocity_y, s.density);
+                     names[static_cast<std::size_t>(s.body)], s.id, s.x, s.y, s.velocity_x, s.velocity_y, s.density);
 }
 
 }  // namespace
@@ -41,8 +48,8 @@ void Simulation::check_safety(double failure) {
 
 void Simulation::stop_with_diagnosis() {
   std::vector<Suspect> mine;
-  find_suspects(fluid_, case_.safety.speed_limit, 0, mine);
-  find_suspects(solid_, case_.safety.speed_limit, 1, mine);
+  find_suspects(fluid_, case_.safety.speed_limit, drop_of(case_), mine);
+  find_suspects(solid_, case_.safety.speed_limit, Body::solid, mine);
   std::vector<Suspect> all = communicator_.all_gather(std::span<const Suspect>(mine));
   if (!all.empty()) {
     const Suspect& first =
@@ -66,7 +73,7 @@ void Simulation::stop_with_diagnosis() {
   fluid_.for_each_owned([&](std::size_t row) {
     if (fluid_.id[row] == id) {
       const Vector p = fluid_.position.at(row), v = fluid_.staggered_velocity.at(row);
-      mine.push_back({id, p.x, p.y, v.x, v.y, fluid_.staggered_density[row], 0});
+      mine.push_back({id, p.x, p.y, v.x, v.y, fluid_.staggered_density[row], drop_of(case_)});
     }
   });
   all = communicator_.all_gather(std::span<const Suspect>(mine));
@@ -82,15 +89,15 @@ void Simulation::stop_with_diagnosis() {
 
 void Simulation::check_nothing_is_lost() {
   std::vector<Suspect> mine;
-  const auto look = [&](const auto& set, std::int64_t is_solid) {
+  const auto look = [&](const auto& set, Body body) {
     set.for_each_owned([&](std::size_t row) {
       const Vector p = set.position.at(row), v = set.staggered_velocity.at(row);
       if (!(p.x >= box_low_.x && p.x <= box_high_.x && p.y >= box_low_.y && p.y <= box_high_.y))
-        mine.push_back({set.id[row], p.x, p.y, v.x, v.y, set.staggered_density[row], is_solid});
+        mine.push_back({set.id[row], p.x, p.y, v.x, v.y, set.staggered_density[row], body});
     });
   };
-  look(fluid_, 0);
-  look(solid_, 1);
+  look(fluid_, drop_of(case_));
+  look(solid_, Body::solid);
   const std::vector<Suspect> all = communicator_.all_gather(std::span<const Suspect>(mine));
   if (!all.empty()) {
     const Suspect& first =

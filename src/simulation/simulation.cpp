@@ -11,6 +11,7 @@
 #include "diagnostics/energy.hpp"
 #include "fluid/density_correction.hpp"
 #include "simulation/particle_transport.hpp"
+#include "solid/mass_proportional_damping.hpp"
 #include "sph/equation_of_state.hpp"
 
 namespace sphdrop {
@@ -57,11 +58,14 @@ DerivedParameters::DerivedParameters(const Case& c)
   time_step.capillary_cfl = c.time.capillary_cfl;
   time_step.viscous_cfl = c.time.viscous_cfl;
   time_step.smoothing_length = smoothing_length;
-  time_step.sound_speed = std::max(has_drop ? c.fluid.sound_speed : 0.0, is_elastic ? solid_speed : 0.0);
+  // No sound runs through a rigid drop; where none runs through the solid either, the liquid's sets the step, and with
+  // it the contact's stiffness (Eq 24).
+  const bool heeds_fluid_speed = c.drop.is_liquid() || (has_drop && !is_elastic);
+  time_step.sound_speed = std::max(heeds_fluid_speed ? c.fluid.sound_speed : 0.0, is_elastic ? solid_speed : 0.0);
   time_step.density = c.fluid.density;
-  const bool has_tension = has_drop && c.surface_tension.form != SurfaceTensionForm::none;
+  const bool has_tension = c.drop.is_liquid() && c.surface_tension.form != SurfaceTensionForm::none;
   time_step.surface_tension = has_tension ? c.surface_tension.coefficient : 0.0;
-  time_step.viscosity = has_drop ? c.fluid.viscosity : 0.0;
+  time_step.viscosity = c.drop.is_liquid() ? c.fluid.viscosity : 0.0;
 }
 
 Simulation::Simulation(const Communicator& communicator, const Case& input, const InitialFluid& initial_fluid,
@@ -69,16 +73,18 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
     : communicator_(communicator),
       case_(input),
       parameters_(input),
-      distribution_(communicator, parameters_.range, input.parallel.imbalance_threshold),
+      distribution_(communicator, parameters_.range, input.parallel.imbalance_threshold, input.drop.is_rigid()),
       fluid_sweep_(parameters_.fluid_pair),
       solid_sweep_(parameters_.solid),
       surface_tension_(communicator, input, parameters_.kernel),
       contact_(communicator, input, global_polylines(initial_solid, initial_fluid.positions.size())),
+      rigid_body_(input, initial_fluid),
       maxima_(communicator) {
   fluid_ghosted_ = fluid_.columns_with(Role::ghosted);
   solid_ghosted_ = solid_.columns_with(Role::ghosted);
   correction_ghosted_ = {&fluid_.position.x, &fluid_.position.y, &fluid_.density.columns[0]};
   take_initial_state(initial_fluid, initial_solid);
+  if (rigid_body_.is_enabled()) rigid_body_.take_places(fluid_);
   timer_.start();
   double largest = 0;
   fluid_.for_each_owned(
@@ -106,7 +112,7 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
     fluid_.position.set(row, fluid.positions[source]);
     fluid_.detection_position.set(row, fluid.positions[source]);
     fluid_.staggered_velocity.set(row, fluid.velocities[source]);
-    fluid_.staggered_density[row] = case_.fluid.density;
+    fluid_.staggered_density[row] = case_.drop.is_rigid() ? case_.drop.density : case_.fluid.density;
   }
   const auto [solid_first, solid_last] = share(solid_total_);
   solid_.resize(static_cast<std::size_t>(solid_last - solid_first));
@@ -122,6 +128,7 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
     solid_.staggered_density[row] = case_.solid.density;
   }
   for (const std::int32_t index : solid.deflection_probe) deflection_probe_.push_back(fluid_total_ + index);
+  for (const std::int32_t index : solid.middle_probe) middle_probe_.push_back(fluid_total_ + index);
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
   box_low_ = {infinity, infinity};
@@ -146,19 +153,11 @@ void Simulation::evaluate() {
   const double squared_speed_now = maxima[squared_speed];
   redistribute_if_due(maxima[squared_displacement]);
 
-  predict(fluid_, steps_.previous);
   predict(solid_, steps_.previous);
-  timer_.lap(Phase::update);
-  const std::int64_t interval = case_.fluid.density_correction_interval;
-  if (interval > 0 && step_ > 0 && step_ % interval == 0) correct_density();
-
-  for (const RowRange& range : fluid_.owned)
-    for (std::int32_t k = range.begin; k < range.end; ++k) {
-      const auto row = static_cast<std::size_t>(k);
-      fluid_.pressure[row] =
-          equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
-    }
-  fluid_sweep_.pack(fluid_, fluid_.owned);
+  if (rigid_body_.is_enabled())
+    rigid_body_.predict(fluid_, steps_.previous);
+  else
+    predict_liquid();
   solid_sweep_.update_stress(solid_, solid_.owned);
   timer_.lap(Phase::update);
 
@@ -188,11 +187,14 @@ void Simulation::evaluate() {
   contact_.finish(fluid_, solid_);
   timer_.lap(Phase::communication);
   add_gravity();
+  if (rigid_body_.is_enabled()) add_forces_on_rigid_body();
+  if (case_.solid.damping_rate > 0) add_mass_proportional_damping(solid_, case_.solid.damping_rate);
 }
 
 void Simulation::move() {
   const double limit = case_.safety.speed_limit;
-  const MotionMaxima fluid = kick_and_drift(fluid_, steps_, limit);
+  const MotionMaxima fluid =
+      rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit) : kick_and_drift(fluid_, steps_, limit);
   const MotionMaxima solid = kick_and_drift(solid_, steps_, limit);
   time_ += steps_.next;
   ++step_;
@@ -229,6 +231,21 @@ void Simulation::redistribute_if_due(double largest_squared_displacement) {
   is_distributed_ = true;
   ++redistributions_;
   timer_.lap(Phase::redistribution);
+}
+
+void Simulation::predict_liquid() {
+  predict(fluid_, steps_.previous);
+  timer_.lap(Phase::update);
+  const std::int64_t interval = case_.fluid.density_correction_interval;
+  if (interval > 0 && step_ > 0 && step_ % interval == 0) correct_density();
+
+  for (const RowRange& range : fluid_.owned)
+    for (std::int32_t k = range.begin; k < range.end; ++k) {
+      const auto row = static_cast<std::size_t>(k);
+      fluid_.pressure[row] =
+          equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
+    }
+  fluid_sweep_.pack(fluid_, fluid_.owned);
 }
 
 void Simulation::correct_density() {
@@ -285,8 +302,13 @@ void Simulation::add_gravity() {
       set.acceleration.y[row] += g.y;
     });
   };
-  add(fluid_);
+  if (!rigid_body_.is_enabled()) add(fluid_);
   add(solid_);
+}
+
+void Simulation::add_forces_on_rigid_body() {
+  const Load reaction = contact_.load_on_solid();
+  rigid_body_.accelerate(-reaction.force, -reaction.moment, {case_.gravity.x, case_.gravity.y});
 }
 
 }  // namespace sphdrop

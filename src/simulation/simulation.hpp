@@ -13,6 +13,7 @@
 #include "simulation/contact_step.hpp"
 #include "simulation/distribution.hpp"
 #include "simulation/phase_timer.hpp"
+#include "simulation/rigid_body_step.hpp"
 #include "simulation/surface_tension_step.hpp"
 #include "solid/hypoelastic/hypoelastic_sweep.hpp"
 #include "time_integration/leapfrog.hpp"
@@ -64,9 +65,12 @@ class Simulation {
   const SolidParticles& solid() const { return solid_; }
   const SurfaceTensionStep& surface_tension() const { return surface_tension_; }
   const ContactStep& contact() const { return contact_; }
+  const RigidBodyStep& rigid_body() const { return rigid_body_; }
   const Distribution& distribution() const { return distribution_; }
   /// Global ids of the particles whose mean displacement is the deflection.
   const std::vector<std::int64_t>& deflection_probe() const { return deflection_probe_; }
+  /// Those of the beam's mid-span section.
+  const std::vector<std::int64_t>& middle_probe() const { return middle_probe_; }
   std::int64_t fluid_total() const { return fluid_total_; }
   std::int64_t solid_total() const { return solid_total_; }
   std::int64_t redistributions() const { return redistributions_; }
@@ -80,11 +84,14 @@ class Simulation {
   [[noreturn]] void stop_with_diagnosis();
   void check_nothing_is_lost();
   void redistribute_if_due(double squared_displacement);
+  /// Velocity, density and pressure at the present instant, ready for the sweep.
+  void predict_liquid();
   void correct_density();
   double next_step_length(double squared_speed) const;
   void sweep_what_needs_no_ghosts();
   void sweep_the_rest();
   void add_gravity();
+  void add_forces_on_rigid_body();
 
   const Communicator& communicator_;
   Case case_;
@@ -92,7 +99,7 @@ class Simulation {
   FluidParticles fluid_;
   SolidParticles solid_;
   std::int64_t fluid_total_ = 0, solid_total_ = 0;
-  std::vector<std::int64_t> deflection_probe_;
+  std::vector<std::int64_t> deflection_probe_, middle_probe_;
   Vector box_low_, box_high_;  // a particle beyond is lost
 
   Distribution distribution_;
@@ -100,6 +107,7 @@ class Simulation {
   HypoelasticSweep solid_sweep_;
   SurfaceTensionStep surface_tension_;
   ContactStep contact_;
+  RigidBodyStep rigid_body_;
   PendingMaximum maxima_;
   std::vector<Column<double>*> fluid_ghosted_, solid_ghosted_, correction_ghosted_;
   std::vector<double> corrected_density_;

@@ -58,7 +58,7 @@ SnapshotRows SnapshotTable::rows(std::int64_t total) const {
 
 std::vector<SnapshotColumn> SnapshotTable::columns() const {
   std::vector<SnapshotColumn> columns;
-  columns.push_back(SnapshotColumn::integer("material", "0: liquid, 1: solid", material_));
+  columns.push_back(SnapshotColumn::integer("material", "0: drop, 1: solid", material_));
   for (const Quantity& q : quantities_) {
     if (q.components.size() == 1)
       columns.push_back(SnapshotColumn::scalar(q.name, q.unit, q.description, q.components[0]));

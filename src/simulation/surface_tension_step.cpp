@@ -14,7 +14,8 @@ namespace sphdrop {
 SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const Case& input, const CubicSpline& kernel)
     : communicator_(communicator),
       kernel_(kernel),
-      form_(input.surface_tension.coefficient > 0 ? input.surface_tension.form : SurfaceTensionForm::none),
+      form_(input.surface_tension.coefficient > 0 && !input.drop.is_rigid() ? input.surface_tension.form
+                                                                            : SurfaceTensionForm::none),
       coefficient_(input.surface_tension.coefficient),
       spacing_(input.resolution.spacing),
       support_(2.0 * input.resolution.smoothing_ratio * input.resolution.spacing),

@@ -95,6 +95,14 @@ void predict(SolidParticles& s, double previous_step) {
                    s.deviatoric_stress.columns[c]);
 }
 
+MotionMaxima motion_maxima(const FluidParticles& f, double speed_limit) {
+  SquaredMaximum speed, moved, detected;
+  add_rows(f.owned, f.staggered_velocity, speed);
+  add_rows(f.owned, f.position, f.list_position, moved);
+  add_rows(f.owned, f.position, f.detection_position, detected);
+  return finish(speed, moved, detected, speed_limit);
+}
+
 MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_limit) {
   advance_column(f.owned, steps.kick(), f.acceleration.x, f.staggered_velocity.x, f.staggered_velocity.x);
   advance_column(f.owned, steps.kick(), f.acceleration.y, f.staggered_velocity.y, f.staggered_velocity.y);
@@ -103,11 +111,7 @@ MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_l
   advance_column(f.owned, steps.next, f.staggered_velocity.x, f.position.x, f.position.x);
   advance_column(f.owned, steps.next, f.staggered_velocity.y, f.position.y, f.position.y);
   accumulate_energy(f.owned, steps.next, f.mass, f.dissipation_rate, f.dissipated_energy);
-  SquaredMaximum speed, moved, detected;
-  add_rows(f.owned, f.staggered_velocity, speed);
-  add_rows(f.owned, f.position, f.list_position, moved);
-  add_rows(f.owned, f.position, f.detection_position, detected);
-  return finish(speed, moved, detected, speed_limit);
+  return motion_maxima(f, speed_limit);
 }
 
 MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_limit) {

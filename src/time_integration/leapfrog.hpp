@@ -30,6 +30,9 @@ struct MotionMaxima {
   bool beyond_limit = false;
 };
 
+/// Of the staggered velocity and the position as they stand. `speed_limit` in m/s.
+MotionMaxima motion_maxima(const FluidParticles& fluid, double speed_limit);
+
 /// Velocity and density (and deviatoric stress) of the owned rows at t from the staggered ones.
 void predict(FluidParticles& fluid, double previous_step);
 void predict(SolidParticles& solid, double previous_step);

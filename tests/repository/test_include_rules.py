@@ -19,9 +19,10 @@ ALLOWED: dict[str, set[str]] = {
     "solid": {"particles", "sph"},
     "contact": {"particles", "sph", "fluid", "solid"},
     "surface_tension": {"particles", "sph", "fluid", "solid"},
+    "rigid_body": {"particles"},
     "time_integration": {"particles", "sph"},
     "diagnostics": {"particles"},
-    "setup": {"particles", "contact", "config/case.hpp"},
+    "setup": {"particles", "contact", "rigid_body", "config/case.hpp"},
 }
 ALLOWED["simulation"] = set(ALLOWED) - {"config"} | {"config/case.hpp"}
 ALLOWED["main.cpp"] = set(ALLOWED) | {"config"}

@@ -109,6 +109,44 @@ length = 2e-3
 initial_tip_velocity = 2.0
 )";
 
+constexpr const char* rigid_ball = R"(
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+material = "rigid"
+density = 1500.0
+diameter = 0.6e-3
+velocity = [0.2, -3.0]
+initial_spin = 5000.0
+gap = 1e-6
+[solid]
+kind = "cantilever"
+length = 2e-3
+[gravity]
+acceleration = [1.0, -9.81]
+)";
+
+// Half of it over the end of the wall.
+constexpr const char* rigid_square = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+[drop]
+material = "rigid"
+shape = "square"
+diameter = 0.6e-3
+velocity = [0.0, -1.0]
+gap = 1e-6
+centre_x = 0.975e-3
+[solid]
+kind = "rigid_wall"
+length = 2e-3
+)";
+
 // Fewer cells than ranks: some ranks hold nothing.
 constexpr const char* tiny_drop = R"(
 [resolution]
@@ -175,7 +213,9 @@ INSTANTIATE_TEST_SUITE_P(Cases, RankEquality,
                                          EqualityCase{"oscillating_drop", oscillating_drop, 200, 0x10767d66cf98d385},
                                          EqualityCase{"square_drop", square_drop, 150, 0x523fc3a1d17f4e1d},
                                          EqualityCase{"free_vibration", free_vibration, 200, 0x4559d4d28dc930db},
-                                         EqualityCase{"tiny_drop", tiny_drop, 100, 0xb48e0b3cc3461e2b}),
+                                         EqualityCase{"tiny_drop", tiny_drop, 100, 0xb48e0b3cc3461e2b},
+                                         EqualityCase{"rigid_ball", rigid_ball, 400, 0x16f5c0d39849342a},
+                                         EqualityCase{"rigid_square", rigid_square, 400, 0xbf61398f3fbc045d}),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace

@@ -108,7 +108,7 @@ std::vector<BadCase> bad_texts() {
        plus("[output]\ndensity = 1000\n"),
        {},
        {{"bad.cfg:12: output.density is not a known key",
-         "fluid.density, in section [fluid] or solid.density, in section [solid]"}}},
+         "fluid.density, in section [fluid] or drop.density, in section [drop] or solid.density, in section [solid]"}}},
       {"key outside its section",
        "diameter = 1e-3\n" + good_case,
        {},

@@ -77,6 +77,8 @@ TEST(ParameterTable, WordsMeanTheirEnumerators) {
   EXPECT_EQ(stored("drop.shape", "square").drop.shape, DropShape::square);
   EXPECT_EQ(stored("drop.arrangement", "rings").drop.arrangement, DropArrangement::rings);
   EXPECT_EQ(stored("drop.arrangement", "lattice").drop.arrangement, DropArrangement::lattice);
+  EXPECT_EQ(stored("drop.material", "liquid").drop.material, DropMaterial::liquid);
+  EXPECT_EQ(stored("drop.material", "rigid").drop.material, DropMaterial::rigid);
   EXPECT_EQ(stored("solid.kind", "none").solid.kind, SolidKind::none);
   EXPECT_EQ(stored("solid.kind", "cantilever").solid.kind, SolidKind::cantilever);
   EXPECT_EQ(stored("solid.kind", "fixed_fixed_beam").solid.kind, SolidKind::fixed_fixed_beam);

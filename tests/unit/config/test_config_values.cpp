@@ -51,7 +51,9 @@ TEST(Defaults, AreThePapersScheme) {
   EXPECT_EQ(c.fluid.density_correction_interval, 20);
   EXPECT_EQ(c.drop.shape, DropShape::round);
   EXPECT_EQ(c.drop.arrangement, DropArrangement::rings);
+  EXPECT_EQ(c.drop.material, DropMaterial::liquid);
   EXPECT_EQ(c.drop.diameter, 1e-3);
+  EXPECT_EQ(c.drop.initial_spin, 0);
   EXPECT_EQ(c.solid.thickness, 0.25e-3);
   EXPECT_EQ(c.solid.youngs_modulus, 300e6);
   EXPECT_EQ(c.solid.poisson_ratio, 0.3);
@@ -60,6 +62,7 @@ TEST(Defaults, AreThePapersScheme) {
   EXPECT_EQ(c.solid.artificial_stress_coefficient, 0.2);
   EXPECT_EQ(c.solid.clamp_length, 0.5e-3);
   EXPECT_EQ(c.solid.clamp_layers, 3);
+  EXPECT_EQ(c.solid.damping_rate, 0);
   EXPECT_EQ(c.contact.stiffness, 0.1);
   EXPECT_EQ(c.contact.distance_ratio, 1);
   EXPECT_EQ(c.contact.overlap_limit, 0.2);
@@ -86,6 +89,28 @@ TEST(DerivedDefaults, FollowFromTheOthers) {
   EXPECT_DOUBLE_EQ(read({"contact.distance_ratio=1.5"}).drop.gap, 0.6 * 2.5e-5);
   EXPECT_EQ(read({"drop.gap=0"}).drop.gap, 0);
   EXPECT_EQ(read({"fluid.sound_speed=40"}).safety.speed_limit, 40);
+  EXPECT_EQ(read({"fluid.density=900"}).drop.density, 900);
+  EXPECT_EQ(read({"drop.material=rigid", "drop.density=2500"}).drop.density, 2500);
+  EXPECT_EQ(read({"solid.thickness=0.5e-3"}).solid.clamp_length, 1e-3);
+  EXPECT_EQ(read({"solid.thickness=0.5e-3", "solid.clamp_length=0.4e-3"}).solid.clamp_length, 0.4e-3);
+}
+
+const std::vector<std::string> beam_alone = {"drop.shape=none", "drop.velocity=[0, 0]", "time.end=10"};
+
+std::vector<std::string> beam_alone_and(const std::string& override) {
+  std::vector<std::string> overrides = beam_alone;
+  overrides.push_back(override);
+  return overrides;
+}
+
+// It is held: neither gravity nor time takes it far.
+TEST(DerivedDefaults, ABeamByItselfStaysWhereItIs) {
+  const Case falling = read(beam_alone_and("gravity.acceleration=[0, -10]"));
+  EXPECT_DOUBLE_EQ(expected_speed(falling), std::sqrt(2 * 10 * 8e-3));
+  EXPECT_DOUBLE_EQ(falling.safety.domain_margin, 3 * 8e-3);
+  const Case swinging = read(beam_alone_and("solid.initial_tip_velocity=1e-4"));
+  EXPECT_DOUBLE_EQ(expected_speed(swinging), 1e-4);
+  EXPECT_DOUBLE_EQ(swinging.safety.domain_margin, 2 * 1e-4 * 10 + 8e-3);
 }
 
 TEST(DerivedDefaults, ExpectedSpeedCountsEverythingThatMoves) {
@@ -94,6 +119,8 @@ TEST(DerivedDefaults, ExpectedSpeedCountsEverythingThatMoves) {
   EXPECT_DOUBLE_EQ(expected_speed(read({"gravity.acceleration=[0, -10]"})), 0.8 + 10 * 5e-3);
   EXPECT_DOUBLE_EQ(expected_speed(read({"drop.velocity=[0, 0]"})), std::sqrt(2 * 0.072 / (1000 * 1e-3)));
   EXPECT_DOUBLE_EQ(expected_speed(read({"solid.initial_tip_velocity=-2"})), 2);
+  EXPECT_DOUBLE_EQ(expected_speed(read({"drop.material=rigid", "drop.initial_spin=-400"})), 0.8 + 400 * 0.5e-3);
+  EXPECT_DOUBLE_EQ(expected_speed(read({"drop.material=rigid", "drop.velocity=[0, 0]"})), 0);
 }
 
 TEST(DerivedDefaults, LargestStepIsTheSmallestOfEqs40To42) {
@@ -104,6 +131,16 @@ TEST(DerivedDefaults, LargestStepIsTheSmallestOfEqs40To42) {
   EXPECT_DOUBLE_EQ(largest_step(read({"fluid.viscosity=100"})).step, 1000 * h * h / 100);
   const Case slow = read({"solid.kind=rigid_wall", "fluid.sound_speed=0.5"});
   EXPECT_NEAR(largest_step(slow).step, std::sqrt(1000 * h * h * h / (2 * 3.14159265358979 * 0.072)), 1e-18);
+}
+
+// No sound, tension or viscosity of the liquid's bounds it, but on a rigid wall its sound speed still sets the step.
+TEST(DerivedDefaults, ARigidDropsStepIsThatOfTheSolidsSound) {
+  const double h = 1.2 * 2.5e-5;
+  const std::vector<std::string> on_beam{"drop.material=rigid", "fluid.sound_speed=2000", "fluid.viscosity=100",
+                                         "surface_tension.coefficient=100"};
+  EXPECT_DOUBLE_EQ(largest_step(read(on_beam)).step, h / (500 + 0.8));
+  const Case on_wall = read({"drop.material=rigid", "solid.kind=rigid_wall", "fluid.sound_speed=40"});
+  EXPECT_DOUBLE_EQ(largest_step(on_wall).step, h / (40 + 0.8));
 }
 
 TEST(Values, AreTakenAsWritten) {
@@ -175,6 +212,10 @@ TEST(Warnings, LeaveAloneWhatTheCaseLacks) {
       parse_case_text(cantilever, "wall.cfg",
                       {"solid.kind=rigid_wall", "solid.artificial_stress_coefficient=0.5", "solid.thickness=3e-5"})
           .warnings.empty());
+  EXPECT_TRUE(parse_case_text(cantilever, "ball.cfg",
+                              {"drop.material=rigid", "fluid.sound_speed=1", "fluid.artificial_viscosity_alpha=0",
+                               "fluid.density_correction_interval=0", "time.step=5e-9"})
+                  .warnings.empty());
 }
 
 bool same_bits(double a, double b) {

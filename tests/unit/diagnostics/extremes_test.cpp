@@ -57,8 +57,9 @@ TEST(PeakTracker, ARepeatedInstantIsPassedOver) {
 TEST(ReboundTracker, RatioOfSpeedsBeforeTheFirstAndAfterTheLastContact) {
   ReboundTracker tracker;
   tracker.add(false, -0.79);
+  tracker.add(false, -0.8);
   EXPECT_FALSE(tracker.restitution());
-  tracker.add(true, -0.8);
+  tracker.add(true, -0.7);  // slowed down already
   tracker.add(true, -0.3);
   EXPECT_FALSE(tracker.restitution());
   tracker.add(false, 0.1);
@@ -68,6 +69,14 @@ TEST(ReboundTracker, RatioOfSpeedsBeforeTheFirstAndAfterTheLastContact) {
   tracker.add(false, 0.4);
   tracker.add(false, 0.39);  // gravity slows it in flight
   EXPECT_DOUBLE_EQ(tracker.restitution().value(), 0.5);
+}
+
+TEST(ReboundTracker, InContactFromTheStart) {
+  ReboundTracker tracker;
+  tracker.add(true, -0.5);
+  tracker.add(true, 0.1);
+  tracker.add(false, 0.4);
+  EXPECT_DOUBLE_EQ(tracker.restitution().value(), 0.8);
 }
 
 Extremes fed(int from, int to, Extremes extremes = {}) {
@@ -85,7 +94,7 @@ TEST(Extremes, WidthDepthAndRestitution) {
   EXPECT_DOUBLE_EQ(extremes.width().sampled().value().time, 1.57);
   EXPECT_NEAR(extremes.depth().refined().value().time, 1.570796 / 1.7, 1e-5);
   EXPECT_NEAR(extremes.depth().refined().value().value, 0.9, 1e-8);
-  EXPECT_NEAR(extremes.restitution().value(), 0.5 / 0.49, 1e-12);
+  EXPECT_NEAR(extremes.restitution().value(), 0.5 / 0.5, 1e-12);
 }
 
 TEST(Extremes, NumbersRoundTripExactlyAtAnyInstant) {

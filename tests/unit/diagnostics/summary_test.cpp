@@ -16,7 +16,7 @@ RunSummary full() {
   run.simulated_time = 8e-3;
   run.steps = 1600000;
   run.contact = RunSummary::Contact{0.1e-3, 3.45e-3, 20e-6, {{3.1e-3, 3.15e-3}}, 2.82e-3};
-  run.drop = RunSummary::Drop{1e-3, {1.22e-3, 1.846e-3}, 0.55};
+  run.drop = RunSummary::Drop{1e-3, {1.22e-3, 1.846e-3}, 0.55, {}};
   run.beam = RunSummary::Beam{{1.254e-3, 0.2863e-3}, 8e-3, 2.80e-3, 2.76e-3, 0.243e-3};
   run.momentum = MomentumLedger{{0.0, -0.8e-3}, {1e-6, 0.3e-3}, {-1e-6, -1.2e-3}, {0.0, -0.1e-3}};
   run.energy = {{"kinetic, drop", 250e-6, 50e-6}, {"surface", 226e-6, 236e-6}, {"dissipated", 0.0, 185e-6}};
@@ -67,6 +67,18 @@ TEST(Summary, ContactDropAndBeam) {
   EXPECT_EQ(value_of(text, "reached at"), "1.2540 ms");
   EXPECT_EQ(value_of(text, "deflection / length"), "0.0358 (Eq 47)");
   EXPECT_EQ(value_of(text, "period"), "2.8000 ms (Eqs 43-44: 2.7600 ms, ratio 1.014)");
+}
+
+TEST(Summary, RigidDrop) {
+  RunSummary run = full();
+  run.drop->rigid_motion = RunSummary::RigidMotion{{0.01, 0.25}, -0.05, 3.0, -12.5};
+  const std::string text = summary_text(run);
+  EXPECT_NE(text.find("\nrigid drop\n"), std::string::npos);
+  EXPECT_EQ(text.find("largest width"), std::string::npos);
+  EXPECT_EQ(value_of(text, "restitution"), "0.550");
+  EXPECT_EQ(value_of(text, "velocity at the end"), "(0.0100, 0.2500) m/s");
+  EXPECT_EQ(value_of(text, "spin"), "3.000 rad/s at the start, -12.500 at the end");
+  EXPECT_EQ(value_of(text, "turned by"), "-2.8648 degrees");
 }
 
 TEST(Summary, MomentumLedger) {

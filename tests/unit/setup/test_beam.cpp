@@ -106,6 +106,19 @@ TEST(Cantilever, IsProbedAtItsLastColumn) {
   for (const std::int32_t i : beam.deflection_probe) EXPECT_NEAR(beam.positions.at(i).x, 31.5 * d, 1e-9 * d);
 }
 
+TEST(Cantilever, HasItsMiddleProbeAtMidSpan) {
+  Case::Solid solid = short_beam(SolidKind::cantilever);
+  const InitialSolid even = build_beam(solid, d);
+  ASSERT_EQ(even.middle_probe.size(), 20u);
+  EXPECT_TRUE(std::is_sorted(even.middle_probe.begin(), even.middle_probe.end()));
+  for (const std::int32_t i : even.middle_probe)
+    EXPECT_NEAR(std::abs(even.positions.at(i).x - 16 * d), 0.5 * d, 1e-9 * d);
+  solid.length = 31 * d;
+  const InitialSolid odd = build_beam(solid, d);
+  ASSERT_EQ(odd.middle_probe.size(), 10u);
+  for (const std::int32_t i : odd.middle_probe) EXPECT_NEAR(odd.positions.at(i).x, 15.5 * d, 1e-9 * d);
+}
+
 TEST(Cantilever, HasOneBoundaryRoundItsFreeEnd) {
   const InitialSolid beam = build_beam(short_beam(SolidKind::cantilever), d);
   ASSERT_EQ(beam.contact_polylines.size(), 1u);
@@ -171,6 +184,7 @@ TEST(FixedFixedBeam, IsProbedInTheMiddle) {
   const InitialSolid even = build_beam(solid, d);
   EXPECT_EQ(even.deflection_probe.size(), 20u);
   EXPECT_NEAR(mean_x(even), 0.4e-3, 1e-12);
+  EXPECT_EQ(even.middle_probe, even.deflection_probe);
   solid.length = 31 * d;
   const InitialSolid odd = build_beam(solid, d);
   EXPECT_EQ(odd.deflection_probe.size(), 10u);
@@ -189,6 +203,7 @@ TEST(RigidWall, IsOneFixedRowUnderItsSurface) {
   EXPECT_EQ(wall.mobile_count, 0u);
   EXPECT_EQ(wall.top, 0.0);
   EXPECT_TRUE(wall.deflection_probe.empty());
+  EXPECT_TRUE(wall.middle_probe.empty());
   for (std::size_t i = 0; i < wall.positions.size(); ++i) {
     EXPECT_EQ(wall.positions[i].y, -0.5 * d);
     EXPECT_EQ(wall.positions[i].x, -wall.positions[wall.positions.size() - 1 - i].x);

@@ -201,5 +201,27 @@ TEST(InitialState, HasTheSameBitsEverywhere) {
   EXPECT_EQ(hash_of(state.solid.velocities), 11895427371132521061u);
 }
 
+// Its own density, an even surface, and the velocity of a turning body about the mass centre.
+TEST(RigidDrop, StartsAsABodyThatTurns) {
+  Case input = impact_case(SolidKind::none);
+  input.drop.shape = DropShape::square;
+  input.drop.material = DropMaterial::rigid;
+  input.drop.density = 2500;
+  input.drop.initial_spin = 300;
+  const InitialFluid ball = build_initial_state(input).fluid;
+  double mass = 0;
+  for (const double m : ball.masses) mass += m;
+  EXPECT_NEAR(mass / (2500 * 1e-6), 1, 1e-12);
+  for (std::size_t k = 0; k < ball.positions.size(); ++k) {
+    const Vector x = ball.positions[k] / d + Vector{0.5, 0.5};
+    EXPECT_NEAR(x.x, std::round(x.x), 1e-9);
+    EXPECT_NEAR(x.y, std::round(x.y), 1e-9);
+    EXPECT_NEAR(ball.velocities[k].x, -300 * ball.positions[k].y, 1e-12);
+    EXPECT_NEAR(ball.velocities[k].y, -0.8 + 300 * ball.positions[k].x, 1e-12);
+  }
+  input.drop.material = DropMaterial::liquid;
+  EXPECT_EQ(build_initial_state(input).fluid.velocities[0], (Vector{0, -0.8}));
+}
+
 }  // namespace
 }  // namespace sphdrop

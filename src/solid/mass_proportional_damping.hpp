@@ -1,0 +1,20 @@
+#pragma once
+// Damping in proportion to mass, as Rayleigh's with a stiffness part of 0: brings a beam to rest.
+
+#include "particles/solid_particles.hpp"
+
+namespace sphdrop {
+
+/// Adds a = -rate v to the acceleration of the owned rows, and the heat it makes, rate |v|^2 per mass, to their
+/// dissipation rate. `rate` in 1/s. A mode of angular frequency omega is damped by rate/(2 omega) of its critical
+/// damping: an amplitude decays as exp(-rate t/2). Held particles have no velocity to be damped.
+inline void add_mass_proportional_damping(SolidParticles& solid, double rate) {
+  solid.for_each_owned([&](std::size_t row) {
+    const Vector v = solid.velocity.at(row);
+    solid.acceleration.x[row] -= rate * v.x;
+    solid.acceleration.y[row] -= rate * v.y;
+    solid.dissipation_rate[row] += rate * squared_length(v);
+  });
+}
+
+}  // namespace sphdrop
