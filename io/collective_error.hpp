@@ -5,11 +5,18 @@
 
 #include <cstdint>
 #include <exception>
+#include <stdexcept>
 #include <string>
 
 #include "decomposition/communicator.hpp"
 
 namespace sphdrop {
+
+/// An error that has been thrown on all ranks, with one text: all of them stand at the same place when it is caught.
+class CollectiveError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Collective. Throws Error with the same text on every rank if `my_error` is not empty on any: the text of the lowest
 /// such rank. Without this a rank that fails alone leaves the others waiting in the next collective call.

@@ -34,17 +34,9 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
 }
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, std::string_view text) {
-  const std::string what = describe(object);
-  const Hdf5Handle type(checked(H5Tcopy(H5T_C_S1), "H5Tcopy", what), H5Tclose);
-  // HDF5 has no strings of length zero; a single null byte reads back as the empty one.
-  const std::string padded = text.empty() ? std::string(1, '\0') : std::string(text);
-  checked(H5Tset_size(type.get(), padded.size()), "H5Tset_size", what);
-  checked(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), "H5Tset_strpad", what);
-  if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; })) {
-    checked(H5Tset_cset(type.get(), H5T_CSET_UTF8), "H5Tset_cset", what);
-  }
-  const Hdf5Handle scalar(checked(H5Screate(H5S_SCALAR), "H5Screate", what), H5Sclose);
-  write_attribute(object, name, type.get(), type.get(), scalar.get(), padded.data());
+  const PaddedText padded(text, describe(object));
+  const Hdf5Handle scalar(checked(H5Screate(H5S_SCALAR), "H5Screate", describe(object)), H5Sclose);
+  write_attribute(object, name, padded.type(), padded.type(), scalar.get(), padded.data());
 }
 
 Hdf5Handle Hdf5File::open_attribute(const std::string& object, const std::string& name) const {
@@ -72,11 +64,7 @@ std::int64_t Hdf5File::read_integer_attribute(const std::string& object, const s
 std::string Hdf5File::read_text_attribute(const std::string& object, const std::string& name) const {
   const Hdf5Handle attribute = open_attribute(object, name);
   const Hdf5Handle type(checked(H5Aget_type(attribute.get()), "H5Aget_type", describe(object)), H5Tclose);
-  if (H5Tget_class(type.get()) != H5T_STRING ||
-      checked(H5Tis_variable_str(type.get()), "H5Tis_variable_str", name) > 0) {
-    throw Hdf5Error(fmt::format("{}, attribute {}: not a string of fixed length", describe(object), name));
-  }
-  std::string text(H5Tget_size(type.get()), '\0');
+  std::string text(fixed_text_size(type.get(), fmt::format("{}, attribute {}", describe(object), name)), '\0');
   checked(H5Aread(attribute.get(), type.get(), text.data()), "H5Aread", describe(object));
   text.resize(std::min(text.size(), text.find('\0')));
   return text;

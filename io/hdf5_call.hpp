@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "io/hdf5_file.hpp"
 
@@ -22,5 +24,21 @@ Result checked(Result result, const char* call, const std::string& what) {
 
 /// Of shape [rows] or, with more than one component, [rows, components].
 Hdf5Handle dataspace(std::int64_t rows, int components, const std::string& what);
+
+/// A text as HDF5 files it: as a string of fixed length.
+class PaddedText {
+ public:
+  PaddedText(std::string_view text, const std::string& what);
+  hid_t type() const { return type_.get(); }
+  const char* data() const { return text_.data(); }
+  std::size_t size() const { return text_.size(); }
+
+ private:
+  std::string text_;
+  Hdf5Handle type_;
+};
+
+/// The length of a string type; Hdf5Error if it is none of fixed length.
+std::size_t fixed_text_size(hid_t type, const std::string& what);
 
 }  // namespace sphdrop

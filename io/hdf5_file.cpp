@@ -109,6 +109,19 @@ void Hdf5Dataset::write_rows_collectively(std::int64_t first_row, std::int64_t c
           "H5Dwrite", name_);
 }
 
+void Hdf5Dataset::write_rows(std::int64_t first_row, std::int64_t count, const void* data) {
+  const Hdf5Handle in_file = file_space(first_row, count);
+  if (count == 0) return;
+  const Hdf5Handle in_memory = memory_space(count);
+  checked(H5Dwrite(dataset_.get(), memory_type_of(type_), in_memory.get(), in_file.get(), H5P_DEFAULT, data),
+          "H5Dwrite", name_);
+}
+
+bool Hdf5Dataset::is_stored_as_opened() const {
+  const Hdf5Handle type(checked(H5Dget_type(dataset_.get()), "H5Dget_type", name_), H5Tclose);
+  return checked(H5Tequal(type.get(), file_type_of(type_)), "H5Tequal", name_) > 0;
+}
+
 void Hdf5Dataset::read_rows(std::int64_t first_row, std::int64_t count, void* data) const {
   const Hdf5Handle in_file = file_space(first_row, count);
   if (count == 0) return;
@@ -120,10 +133,11 @@ void Hdf5Dataset::read_rows(std::int64_t first_row, std::int64_t count, void* da
 Hdf5File::Hdf5File(std::string path, Hdf5Handle file, MPI_Comm communicator)
     : path_(std::move(path)), file_(std::move(file)), communicator_(communicator) {}
 
-Hdf5File Hdf5File::create(const std::string& path) {
+Hdf5File Hdf5File::create(const std::string& path, std::int64_t user_block) {
   silence_error_printing();
   const Hdf5Handle creation = property_list(H5P_FILE_CREATE, path);
   checked(H5Pset_obj_track_times(creation.get(), false), "H5Pset_obj_track_times", path);
+  checked(H5Pset_userblock(creation.get(), static_cast<hsize_t>(user_block)), "H5Pset_userblock", path);
   Hdf5Handle file(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT), "H5Fcreate", path),
                   H5Fclose);
   return {path, std::move(file), MPI_COMM_NULL};

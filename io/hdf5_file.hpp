@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "decomposition/communicator.hpp"
 
@@ -52,8 +53,13 @@ class Hdf5Dataset {
   std::int64_t rows() const { return rows_; }
   int components() const { return components_; }
 
+  /// Whether the file holds exactly the type it was opened with, so that nothing is converted.
+  bool is_stored_as_opened() const;
+
   /// Collective. Writes this rank's `count` consecutive rows (zero is allowed) from `first_row` on, in one MPI-IO call.
   void write_rows_collectively(std::int64_t first_row, std::int64_t count, const void* data);
+  /// Serially, by one rank: for small values of the structure.
+  void write_rows(std::int64_t first_row, std::int64_t count, const void* data);
   void read_rows(std::int64_t first_row, std::int64_t count, void* data) const;
 
  private:
@@ -73,8 +79,8 @@ class Hdf5Dataset {
 class Hdf5File {
  public:
   /// With the serial driver, by one rank; replaces the file. For the structure: groups, attributes, datasets without
-  /// their values.
-  static Hdf5File create(const std::string& path);
+  /// their values. The first `user_block` bytes (0 or a power of two from 512 on) are left to the caller.
+  static Hdf5File create(const std::string& path, std::int64_t user_block = 0);
   /// Collective. To write values into existing datasets. The structure must stay as it is: with none of HDF5's own data
   /// to write but the superblock, which has its place on the disk, closing works even if the values did not fit.
   static Hdf5File open_collectively(const Communicator& communicator, const std::string& path);
@@ -98,6 +104,14 @@ class Hdf5File {
   /// To read as `type`; HDF5 converts.
   Hdf5Dataset open_dataset(const std::string& name, Hdf5Type type) const;
 
+  /// The names of the groups and of the datasets in a group, ascending.
+  std::vector<std::string> groups_in(const std::string& group) const;
+  std::vector<std::string> datasets_in(const std::string& group) const;
+
+  /// A dataset of one string of fixed length; the text must not contain null bytes.
+  void write_text(const std::string& name, std::string_view text);
+  std::string read_text(const std::string& name) const;
+
   void write_attribute(const std::string& object, const std::string& name, double value);
   void write_attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
   void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
@@ -112,6 +126,7 @@ class Hdf5File {
   Hdf5File(std::string path, Hdf5Handle file, MPI_Comm communicator);
   void write_attribute(const std::string& object, const std::string& name, hid_t file_type, hid_t memory_type,
                        hid_t space, const void* value);
+  std::vector<std::string> members(const std::string& group, H5O_type_t kind) const;
   Hdf5Handle open_attribute(const std::string& object, const std::string& name) const;
   std::string describe(const std::string& object) const;
 

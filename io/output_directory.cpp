@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "io/checkpoint_directory.hpp"
 #include "io/collective_error.hpp"
 #include "io/posix_file.hpp"
 
@@ -47,6 +48,7 @@ bool is_result(std::string_view name) {
                                 std::string_view("run.json"), std::string_view("snapshots.vtkhdf.series")};
   if (name.ends_with(".part")) name.remove_suffix(5);
   if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) return true;
+  if (is_checkpoint_file_name(name)) return true;
   constexpr std::string_view start = "snapshot_";
   constexpr std::string_view end = ".vtkhdf";
   if (!name.starts_with(start) || !name.ends_with(end) || name.size() < start.size() + end.size() + 6) return false;

@@ -22,8 +22,8 @@ void create_writable_directory(const std::filesystem::path& directory);
 /// hosts it must lie on a shared file system). Throws OutputDirectoryError with the same text on all ranks.
 void prepare_output_directory(const Communicator& communicator, const std::filesystem::path& directory);
 
-/// The files in `directory` that a run wrote, ascending: snapshots and their index, history, run.json, and *.part files
-/// of these left by a crash. Files of other names are none of ours.
+/// The files in `directory` that a run wrote, ascending: snapshots and their index, checkpoints, history, run.json,
+/// and *.part files of these left by a crash. Files of other names are none of ours.
 std::vector<std::filesystem::path> results_in(const std::filesystem::path& directory);
 
 }  // namespace sphdrop

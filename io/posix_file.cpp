@@ -55,13 +55,44 @@ void FileDescriptor::write(std::string_view text) {
   }
 }
 
-void FileDescriptor::rewrite_start(std::size_t bytes) {
+void FileDescriptor::read_at(std::int64_t position, std::span<std::byte> bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t length = ::pread(descriptor_, bytes.data(), bytes.size(), position);
+    if (length < 0 && errno == EINTR) continue;
+    if (length < 0) throw_system_error(errno, "pread", path_);
+    if (length == 0) {
+      throw_system_error(EIO, fmt::format("the file ends {} bytes too early", bytes.size()).c_str(), path_);
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(length));
+    position += length;
+  }
+}
+
+void FileDescriptor::write_at(std::int64_t position, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, text.data(), text.size(), position);
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      throw_system_error(errno, "pwrite", path_);
+    }
+    text.remove_prefix(static_cast<std::size_t>(written));
+    position += written;
+  }
+}
+
+void FileDescriptor::rewrite(std::int64_t position, std::size_t bytes) {
   std::string text(bytes, '\0');
-  const ssize_t length = ::pread(descriptor_, text.data(), bytes, 0);
+  const ssize_t length = ::pread(descriptor_, text.data(), bytes, position);
   if (length < 0) throw_system_error(errno, "pread", path_);
-  if (::pwrite(descriptor_, text.data(), static_cast<std::size_t>(length), 0) != length) {
+  if (::pwrite(descriptor_, text.data(), static_cast<std::size_t>(length), position) != length) {
     throw_system_error(errno, "pwrite", path_);
   }
+}
+
+std::int64_t FileDescriptor::size() const {
+  struct stat status = {};
+  if (::fstat(descriptor_, &status) != 0) throw_system_error(errno, "fstat", path_);
+  return status.st_size;
 }
 
 void FileDescriptor::truncate(std::int64_t size) {
@@ -96,9 +127,7 @@ void reserve_space(const std::filesystem::path& path, std::int64_t bytes) {
 
 void release_unused_space(const std::filesystem::path& path) {
   FileDescriptor file(path, O_WRONLY);
-  struct stat status = {};
-  if (::fstat(file.get(), &status) != 0) throw_system_error(errno, "fstat", path);
-  file.truncate(status.st_size);
+  file.truncate(file.size());
   file.close();
 }
 

@@ -2,8 +2,10 @@
 // What the C++ library lacks for files that must survive a full disk or a crash. Errors are std::system_error with the
 // path and the failed call in the text.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace sphdrop {
@@ -22,8 +24,13 @@ class FileDescriptor {
   int get() const { return descriptor_; }
   /// Writes everything, however many write(2) calls it takes.
   void write(std::string_view text);
-  /// Reads the first `bytes` and writes them back.
-  void rewrite_start(std::size_t bytes);
+  /// Reads exactly bytes.size() bytes from `position` on; a file that ends earlier is an error (EIO).
+  void read_at(std::int64_t position, std::span<std::byte> bytes) const;
+  void write_at(std::int64_t position, std::string_view text);
+  /// Reads up to `bytes` from `position` on and writes them back.
+  void rewrite(std::int64_t position, std::size_t bytes);
+  /// Of the file, in bytes.
+  std::int64_t size() const;
   void truncate(std::int64_t size);
   void synchronise();
   /// Some file systems report a failed write only here.

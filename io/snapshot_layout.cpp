@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <numeric>
 #include <set>
 
 #include "io/collective_error.hpp"
+#include "io/rows_by_id.hpp"
 
 namespace sphdrop {
 namespace {
@@ -21,11 +20,6 @@ std::vector<std::byte> to_bytes(std::span<const T> values) {
   return {bytes.begin(), bytes.end()};
 }
 
-bool is_name(const std::string& text) {
-  return !text.empty() &&
-         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-}
-
 /// What is wrong with the arguments on this rank; empty if nothing is.
 std::string check_columns(const SnapshotRows& rows, std::span<const SnapshotColumn> columns) {
   const std::size_t n = rows.ids.size();
@@ -34,7 +28,7 @@ std::string check_columns(const SnapshotRows& rows, std::span<const SnapshotColu
   }
   std::set<std::string> names = {"id"};
   for (const SnapshotColumn& column : columns) {
-    if (!is_name(column.name))
+    if (!is_dataset_name(column.name))
       return fmt::format("'{}' is no name for a column: letters, digits and _ only", column.name);
     if (!names.insert(column.name).second) return fmt::format("two columns are named '{}'", column.name);
     const bool real = !column.components.empty();
@@ -63,16 +57,16 @@ std::vector<std::byte> interleave(std::span<const std::vector<double>> component
 
 /// A dataset of a single value, which rank 0 writes.
 template <class T>
-SnapshotDataset single_value(const Communicator& communicator, std::string path, std::string unit,
-                             std::string description, Hdf5Type type, T value) {
-  SnapshotDataset dataset{std::move(path), std::move(unit), std::move(description), type, 1, 1, 0, {}};
+DatasetRows single_value(const Communicator& communicator, std::string path, std::string unit, std::string description,
+                         Hdf5Type type, T value) {
+  DatasetRows dataset{std::move(path), std::move(unit), std::move(description), type, 1, 1, 0, {}};
   if (communicator.rank() == 0) dataset.bytes = to_bytes<T>(std::span<const T>(&value, 1));
   return dataset;
 }
 
 /// The arrays by which VTK knows that every point is a cell of its own.
 void append_cells(const Communicator& communicator, std::int64_t total, const RowBlock& block,
-                  std::vector<SnapshotDataset>& datasets) {
+                  std::vector<DatasetRows>& datasets) {
   const auto n = static_cast<std::size_t>(block.size());
   datasets.push_back(
       single_value(communicator, "/VTKHDF/NumberOfPoints", "1", "number of particles", Hdf5Type::int64, total));
@@ -92,7 +86,7 @@ void append_cells(const Communicator& communicator, std::int64_t total, const Ro
 }
 
 void append_field_data(const Communicator& communicator, const SnapshotHeader& header,
-                       std::vector<SnapshotDataset>& datasets) {
+                       std::vector<DatasetRows>& datasets) {
   datasets.push_back(
       single_value(communicator, "/VTKHDF/FieldData/TimeValue", "s", "time", Hdf5Type::float64, header.time));
   datasets.push_back(
@@ -103,10 +97,10 @@ void append_field_data(const Communicator& communicator, const SnapshotHeader& h
 
 }  // namespace
 
-std::vector<SnapshotDataset> lay_out_snapshot(const Communicator& communicator, const SnapshotHeader& header,
-                                              const SnapshotRows& rows, std::span<const SnapshotColumn> columns) {
-  throw_if_any_failed<SnapshotError>(communicator, check_columns(rows, columns));
-  RowsById by_id(communicator, rows.total, rows.ids);
+std::vector<DatasetRows> lay_out_snapshot(const Communicator& communicator, const SnapshotHeader& header,
+                                          const SnapshotRows& rows, std::span<const SnapshotColumn> columns) {
+  throw_if_any_failed<CollectiveError>(communicator, check_columns(rows, columns));
+  RowsById by_id(communicator, 0, rows.total, rows.ids);
   const RowBlock& block = by_id.block();
   const auto n = static_cast<std::size_t>(block.size());
 
@@ -122,7 +116,7 @@ std::vector<SnapshotDataset> lay_out_snapshot(const Communicator& communicator, 
   for (auto& column : sorted) targets.push_back(column.data());
   by_id.redistribute(sources, targets);
 
-  std::vector<SnapshotDataset> datasets;
+  std::vector<DatasetRows> datasets;
   append_cells(communicator, rows.total, block, datasets);
   const auto append = [&](std::string path, std::string unit, std::string description, Hdf5Type type, int components,
                           std::vector<std::byte> bytes) {

@@ -5,13 +5,18 @@
     run.history.unit("drop_width")       # "m"
     for snapshot in run.snapshots:
         snapshot.time, snapshot["position"], snapshot["pressure"][snapshot.fluid]
+    checkpoint = Checkpoint(run.checkpoints[0])
+    checkpoint.tables["fluid"]["density"]
 """
 
 from __future__ import annotations
 
 import csv
+import ctypes
+import functools
 import json
 import re
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, overload
@@ -20,7 +25,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["History", "ResultError", "Run", "Snapshot", "SnapshotSequence"]
+__all__ = ["Checkpoint", "CheckpointGroup", "CheckpointTable", "History", "ResultError", "Run", "Snapshot", "SnapshotSequence"]
 
 
 class ResultError(Exception):
@@ -175,6 +180,142 @@ class History(Mapping[str, NDArray[np.float64]]):
         return self._units[name]
 
 
+class CheckpointGroup(Mapping[str, NDArray[np.float64]]):
+    """Named arrays of a checkpoint, each read when asked for."""
+
+    def __init__(self, path: Path, group: h5py.Group) -> None:
+        self._path, self._group = path, group.name
+        self._units = {name: _text(dataset.attrs["unit"]) for name, dataset in group.items()}
+        self._descriptions = {name: _text(dataset.attrs["description"]) for name, dataset in group.items()}
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        self.unit(name)
+        with h5py.File(self._path, "r") as file:
+            return file[f"{self._group}/{name}"][...]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._units
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._units)
+
+    def __len__(self) -> int:
+        return len(self._units)
+
+    def unit(self, name: str) -> str:
+        if name not in self._units:
+            raise ResultError(f"{self._path}:{self._group}: there is no '{name}'; there are {', '.join(self._units)}")
+        return self._units[name]
+
+    def description(self, name: str) -> str:
+        self.unit(name)
+        return self._descriptions[name]
+
+
+class CheckpointTable(CheckpointGroup):
+    """The columns of a table; row k belongs to the particle with the id first_id + k."""
+
+    def __init__(self, path: Path, group: h5py.Group) -> None:
+        super().__init__(path, group)
+        self.row_count = int(group.attrs["rows"])
+        self.first_id = int(group.attrs["first_id"])
+
+    @property
+    def ids(self) -> NDArray[np.int64]:
+        return np.arange(self.first_id, self.first_id + self.row_count)
+
+
+class Checkpoint:
+    """The state of a run to go on from. Its bytes are checked first."""
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        self._check_bytes()
+        try:
+            with h5py.File(self.path, "r") as file:
+                self.time = float(file.attrs["time"])
+                self.step = int(file.attrs["step"])
+                self.state_hash = _text(file.attrs["state_hash"])
+                self.case_name = _text(file.attrs["name"])
+                self.version = _text(file.attrs["version"])
+                self.git_commit = _text(file.attrs["git_commit"])
+                self.case_text = _text(file["case"][()])
+                self.numbers = CheckpointGroup(self.path, file["run"])
+                groups = {name: group for name, group in file.items() if isinstance(group, h5py.Group) and name != "run"}
+                self.tables = {name: CheckpointTable(self.path, group) for name, group in groups.items()}
+        except (OSError, KeyError) as error:
+            raise ResultError(f"{self.path}: is no sound checkpoint: {error}") from error
+
+    def _check_bytes(self) -> None:
+        """io/FORMAT.md says what the first 512 bytes hold."""
+        try:
+            content = np.memmap(self.path, dtype=np.uint8, mode="r") if self.path.stat().st_size else np.empty(0, np.uint8)
+        except OSError as error:
+            raise ResultError(f"{self.path}: cannot be read: {error.strerror}") from error
+        head = content[:_HEAD_BYTES].tobytes()
+        begin = re.match(rb"sphdrop checkpoint (\d+)\n", head)
+        if begin is None:
+            raise ResultError(f"{self.path}: is no checkpoint of sphdrop")
+        if len(head) < _HEAD_BYTES:
+            raise ResultError(f"{self.path}: is truncated: {len(head)} of at least {_HEAD_BYTES} bytes are there")
+        library = _xxh3_library()
+        sealed, label, seal = head.partition(b"head_checksum ")
+        if library is not None and label + seal != _seal_of(library, sealed):
+            raise ResultError(f"{self.path}: is damaged: its first {_HEAD_BYTES} bytes do not match their own checksum")
+        if int(begin[1]) != 1:
+            raise ResultError(f"{self.path}: is of format {int(begin[1])}; this reader knows format 1")
+        fields = dict(re.findall(r"^(\w+) (\w+)$", sealed.decode("ascii", errors="replace"), flags=re.MULTILINE))
+        if not {"bytes", "block_bytes", "checksum"} <= set(fields):
+            raise ResultError(f"{self.path}: is damaged: its first {_HEAD_BYTES} bytes lack what they should hold")
+        if len(content) < int(fields["bytes"]):
+            raise ResultError(f"{self.path}: is truncated: {len(content)} of {fields['bytes']} bytes are there")
+        if len(content) > int(fields["bytes"]):
+            raise ResultError(f"{self.path}: is damaged: it has {len(content)} bytes, not {fields['bytes']}")
+        if library is None:
+            warnings.warn(f"{self.path}: libxxhash is not there: the checksum was not checked", stacklevel=3)
+            return
+        step = int(fields["block_bytes"])
+        blocks = (content[start : start + step].tobytes() for start in range(_HEAD_BYTES, len(content), step))
+        checksum = _digest(library, b"".join(_digest(library, block) for block in blocks)).hex()
+        if checksum != fields["checksum"]:
+            raise ResultError(
+                f"{self.path}: is damaged: the checksum of its bytes is {checksum}, not {fields['checksum']}"
+            )
+
+    def __repr__(self) -> str:
+        return f"<checkpoint {self.path.name}: t = {self.time} s, {', '.join(self.tables)}>"
+
+
+_HEAD_BYTES = 512
+
+
+class _Hash128(ctypes.Structure):
+    _fields_ = (("low", ctypes.c_uint64), ("high", ctypes.c_uint64))
+
+
+@functools.cache
+def _xxh3_library() -> ctypes.CDLL | None:
+    """The library that the program itself takes its checksums with."""
+    try:
+        library = ctypes.CDLL("libxxhash.so.0")
+        library.XXH3_128bits.restype = _Hash128
+        library.XXH3_128bits.argtypes = (ctypes.c_char_p, ctypes.c_size_t)
+    except (OSError, AttributeError):
+        return None
+    return library
+
+
+def _digest(library: ctypes.CDLL, data: bytes) -> bytes:
+    value = library.XXH3_128bits(data, len(data))
+    return value.high.to_bytes(8, "big") + value.low.to_bytes(8, "big")
+
+
+def _seal_of(library: ctypes.CDLL, sealed: bytes) -> bytes:
+    """What must follow `sealed` at a checkpoint's start."""
+    seal = b"head_checksum " + _digest(library, sealed).hex().encode() + b"\n"
+    return seal.ljust(_HEAD_BYTES - len(sealed), b"\0")
+
+
 class Run:
     """The results in a directory. What is not there raises ResultError when it is asked for, not before."""
 
@@ -183,7 +324,7 @@ class Run:
         if not self.directory.is_dir():
             raise ResultError(f"{self.directory}: is not a directory")
         known = [self._index_path, self.directory / "history.csv", self.directory / "run.json"]
-        if not any(path.exists() for path in known) and not self._snapshot_files():
+        if not any(path.exists() for path in known) and not self._snapshot_files() and not self.checkpoints:
             raise ResultError(f"{self.directory}: holds no results of sphdrop (no run.json, history.csv or snapshots)")
         self._history: History | None = None
         self._snapshots: SnapshotSequence | None = None
@@ -220,6 +361,13 @@ class Run:
                 paths = self._snapshot_files()
             self._snapshots = SnapshotSequence(paths)
         return self._snapshots
+
+    @property
+    def checkpoints(self) -> list[Path]:
+        """The files, newest first; Checkpoint reads one."""
+        found = (re.fullmatch(r"checkpoint_(\d{12,})\.h5", path.name) for path in self.directory.iterdir())
+        steps = sorted((int(match[1]), match[0]) for match in found if match)
+        return [self.directory / name for _, name in reversed(steps)]
 
     @property
     def info(self) -> dict[str, Any]:

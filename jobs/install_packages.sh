@@ -20,7 +20,7 @@ packages=(
   g++ cmake ninja-build
   openmpi-bin libopenmpi-dev
   libhdf5-openmpi-dev hdf5-tools
-  libmetis-dev libeigen3-dev libtoml11-dev libcli11-dev libfmt-dev
+  libmetis-dev libxxhash-dev libeigen3-dev libtoml11-dev libcli11-dev libfmt-dev
   python3 python3-numpy python3-h5py python3-matplotlib
 )
 packages_of_tests=(git libgtest-dev libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy python3-vtk9)

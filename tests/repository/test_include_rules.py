@@ -37,6 +37,7 @@ LIBRARY_HEADERS: dict[str, set[str]] = {
     "metis.h": {"decomposition", "io"},
     "toml.hpp": {"config"},
     "CLI/CLI.hpp": {"config"},
+    "xxhash.h": {"io"},
 }
 
 

@@ -83,7 +83,7 @@ class Registration(unittest.TestCase):
             if path.parts[:2] == ("tests", "benchmarks") and os.environ["SPHDROP_BENCHMARKS"] != "ON":
                 continue
             with self.subTest(file=str(path)):
-                self.assertIn((ROOT / path).resolve(), compiled, "no CMakeLists.txt names it")
+                self.assertTrue((ROOT / path).resolve() in compiled, f"no CMakeLists.txt names {path}")
 
     def test_every_python_test_is_run(self) -> None:
         commands = commands_of_tests()

@@ -1,6 +1,6 @@
-// A disk that fails, for LD_PRELOAD: on the rank FAILING_RANK, writes to files whose path ends in ".vtkhdf.part" work
-// for FAILING_AFTER bytes and then return EIO (FAILING_MODE=error), do so once only (FAILING_MODE=transient) or
-// pretend success (FAILING_MODE=silent).
+// A disk that fails, for LD_PRELOAD: on the rank FAILING_RANK, writes to files whose path ends in FAILING_FILE work for
+// FAILING_AFTER bytes and then return EIO (FAILING_MODE=error), do so once only (FAILING_MODE=transient), pretend
+// success (FAILING_MODE=silent) or do so once only (FAILING_MODE=lost).
 #include <dlfcn.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -27,7 +27,8 @@ bool concerns(int file) {
   std::array<char, 4096> target = {};
   const std::string link = "/proc/self/fd/" + std::to_string(file);
   const ssize_t length = ::readlink(link.c_str(), target.data(), target.size());
-  return length > 0 && std::string_view(target.data(), static_cast<std::size_t>(length)).ends_with(".vtkhdf.part");
+  return length > 0 &&
+         std::string_view(target.data(), static_cast<std::size_t>(length)).ends_with(setting("FAILING_FILE"));
 }
 
 /// What a write of `bytes` returns if it fails; 0 if it is to go ahead.
@@ -35,8 +36,9 @@ ssize_t failure(int file, std::size_t bytes) {
   if (!concerns(file)) return 0;
   const long beyond = (written += static_cast<long>(bytes)) - std::atol(setting("FAILING_AFTER"));
   const std::string_view mode = setting("FAILING_MODE");
-  if (beyond <= 0 || (mode == "transient" && failed_once.exchange(true))) return 0;
-  if (mode == "silent") return static_cast<ssize_t>(bytes);
+  const bool is_once = mode == "transient" || mode == "lost";
+  if (beyond <= 0 || (is_once && failed_once.exchange(true))) return 0;
+  if (mode == "silent" || mode == "lost") return static_cast<ssize_t>(bytes);
   errno = EIO;
   return -1;
 }

@@ -4,7 +4,9 @@
 #include <sys/mount.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,7 +16,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/output_directory.hpp"
 #include "io/posix_file.hpp"
-#include "io/snapshot_rows.hpp"
+#include "io/rows_by_id.hpp"
 #include "io/snapshot_series.hpp"
 
 namespace sphdrop {
@@ -70,6 +72,22 @@ TEST_F(Files, AtomicWriteOnAFullDiskKeepsTheOldFile) {
   EXPECT_FALSE(fs::exists(directory_ / "index.part"));
 }
 
+TEST_F(Files, PositionedReadsAndWritesAreWholeOrErrors) {
+  const auto path = directory_ / "data";
+  std::ofstream(path) << "0123456789";
+  FileDescriptor file(path, O_RDWR);
+  EXPECT_EQ(file.size(), 10);
+  file.write_at(8, "abc");
+  EXPECT_EQ(text_of(path), "01234567abc");
+  std::array<std::byte, 4> bytes = {};
+  file.read_at(7, bytes);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), 4), "7abc");
+  EXPECT_THROW(file.read_at(8, bytes), std::system_error) << "the file ends too early";
+  file.rewrite(2, 100);
+  EXPECT_EQ(text_of(path), "01234567abc");
+  EXPECT_THROW(FileDescriptor(path, O_RDONLY).write_at(0, "x"), std::system_error);
+}
+
 TEST_F(Files, ReservationShowsAFullDiskBeforeAnythingIsWritten) {
   if (!mount_small("size=64k")) GTEST_SKIP() << "no right to mount a small file system";
   const auto path = directory_ / "data";
@@ -123,13 +141,15 @@ TEST_F(Files, AReadOnlyFileSystemIsNamed) {
 TEST_F(Files, OnlyFilesOfARunCountAsResults) {
   for (const char* name :
        {"snapshot_000001.vtkhdf", "snapshot_000000.vtkhdf", "snapshot_000002.vtkhdf.part", "history.csv", "run.json",
-        "snapshots.vtkhdf.series", "notes.txt", "snapshot_1.vtkhdf", "snapshot_00000x.vtkhdf", "my_history.csv"}) {
+        "snapshots.vtkhdf.series", "checkpoint_000000000100.h5", "checkpoint_000000000200.h5.part", "checkpoint_100.h5",
+        "notes.txt", "snapshot_1.vtkhdf", "snapshot_00000x.vtkhdf", "my_history.csv"}) {
     std::ofstream(directory_ / name) << "x";
   }
   std::vector<std::string> names;
   for (const auto& path : results_in(directory_)) names.push_back(path.filename());
   EXPECT_EQ(names,
-            (std::vector<std::string>{"history.csv", "run.json", "snapshot_000000.vtkhdf", "snapshot_000001.vtkhdf",
+            (std::vector<std::string>{"checkpoint_000000000100.h5", "checkpoint_000000000200.h5.part", "history.csv",
+                                      "run.json", "snapshot_000000.vtkhdf", "snapshot_000001.vtkhdf",
                                       "snapshot_000002.vtkhdf.part", "snapshots.vtkhdf.series"}));
   EXPECT_TRUE(results_in(directory_ / "missing").empty());
 }

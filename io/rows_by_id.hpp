@@ -22,10 +22,12 @@ struct RowBlock {
 /// Moves columns from the ranks that own the rows to the ranks whose block they belong to.
 class RowsById {
  public:
-  /// Collective. `ids`: of the rows this rank owns, in any order; over all ranks they must be 0 ... total - 1, once
-  /// each. Throws SnapshotError on all ranks if they are not.
-  RowsById(const Communicator& communicator, std::int64_t total, std::span<const std::int64_t> ids);
+  /// Collective. `ids`: of the rows this rank owns, in any order; over all ranks they must be first_id ... first_id +
+  /// total - 1, once each. Throws CollectiveError on all ranks if they are not.
+  RowsById(const Communicator& communicator, std::int64_t first_id, std::int64_t total,
+           std::span<const std::int64_t> ids);
 
+  /// Of this rank; row k is that of the id first_id + k.
   const RowBlock& block() const { return block_; }
 
   /// Collective. Columns of 8-byte elements; sources hold one for each id given to the constructor, in that order,
@@ -36,6 +38,7 @@ class RowsById {
   /// What is wrong with this rank's share of the ids; empty if nothing is.
   std::string check_received(std::vector<std::int32_t>& row_in_block, const std::vector<std::int64_t>& received) const;
 
+  std::int64_t first_id_;
   RowBlock block_;
   ExchangePlan plan_;
 };

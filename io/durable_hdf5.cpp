@@ -1,0 +1,147 @@
+#include "io/durable_hdf5.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+
+#include "io/collective_error.hpp"
+#include "io/posix_file.hpp"
+
+namespace sphdrop {
+namespace {
+
+/// HDF5's own structures: superblock, groups, object headers, attributes. A kilobyte or two a dataset.
+constexpr std::int64_t metadata_allowance = 1 << 20;
+
+/// HDF5's superblock with what belongs to it.
+constexpr std::size_t superblock_bytes = 96;
+
+std::int64_t bytes_needed(const DurableHdf5& plan) {
+  std::int64_t bytes = metadata_allowance + plan.user_block + plan.structure_bytes;
+  for (const DatasetRows& dataset : plan.datasets) bytes += dataset.total_bytes();
+  return bytes;
+}
+
+void write_structure(const std::string& path, const DurableHdf5& plan) {
+  Hdf5File file = Hdf5File::create(path, plan.user_block);
+  plan.write_structure(file);
+  for (const DatasetRows& dataset : plan.datasets) {
+    file.create_dataset(dataset.path, dataset.type, dataset.total_rows, dataset.components);
+    file.write_attribute(dataset.path, "unit", std::string_view(dataset.unit));
+    file.write_attribute(dataset.path, "description", std::string_view(dataset.description));
+  }
+  file.close();
+}
+
+/// A full disk must show before anything is written: with HDF5 it may show as success, and with MPI-IO as a hang.
+/// Creating the file gives back what was reserved before, so the space is taken again for the values.
+void prepare_file(const std::string& path, const DurableHdf5& plan) {
+  const std::int64_t bytes = bytes_needed(plan);
+  FileDescriptor(path, O_WRONLY | O_CREAT | O_TRUNC).close();
+  reserve_space(path, bytes);
+  write_structure(path, plan);
+  reserve_space(path, bytes);
+}
+
+/// Whether the superblock can be written again (with the same bytes).
+bool can_be_rewritten(const std::string& path, std::int64_t user_block) {
+  try {
+    FileDescriptor file(path, O_RDWR);
+    file.rewrite(user_block, superblock_bytes);
+    file.close();
+    return true;
+  } catch (const std::system_error&) {
+    return false;
+  }
+}
+
+/// At closing, HDF5 writes the superblock again. Should that fail, the rank that fails and the others wait for each
+/// other in H5Fclose for ever; so every rank tries it first. (That all values were written without an error says
+/// nothing: from three ranks on, Open MPI's OMPIO reports success for writes that failed.)
+void stop_unless_closable(const Communicator& communicator, const std::string& path, std::int64_t user_block,
+                          const std::string& earlier_error) {
+  if (communicator.min(std::int64_t{can_be_rewritten(path, user_block) ? 1 : 0}) == 1) return;
+  if (communicator.rank() == 0) {
+    fmt::print(stderr, "error: {}: the file can be neither written nor closed; stopping. {}\n", path, earlier_error);
+    std::fflush(stderr);
+  }
+  communicator.barrier();
+  MPI_Abort(communicator.handle(), EXIT_FAILURE);
+}
+
+void write_values(const Communicator& communicator, const std::string& path, const DurableHdf5& plan) {
+  std::optional<Hdf5File> file;
+  collectively<CollectiveError>(communicator, [&] { file.emplace(Hdf5File::open_collectively(communicator, path)); });
+  try {
+    for (const DatasetRows& data : plan.datasets) {
+      std::optional<Hdf5Dataset> dataset;
+      collectively<CollectiveError>(communicator, [&] { dataset.emplace(file->open_dataset(data.path, data.type)); });
+      collectively<CollectiveError>(
+          communicator, [&] { dataset->write_rows_collectively(data.first_row, data.row_count(), data.bytes.data()); });
+    }
+  } catch (const CollectiveError& error) {
+    stop_unless_closable(communicator, path, plan.user_block, error.what());
+    throw;
+  }
+  stop_unless_closable(communicator, path, plan.user_block, "");
+  file->close();
+}
+
+/// Collective MPI-IO on a full or broken disk may report success; what the file holds is what counts.
+void compare_with_file(const std::string& path, std::span<const DatasetRows> datasets) {
+  const Hdf5File file = Hdf5File::open_to_read(path);
+  std::vector<std::byte> bytes;
+  for (const DatasetRows& data : datasets) {
+    const Hdf5Dataset dataset = file.open_dataset(data.path, data.type);
+    if (dataset.rows() != data.total_rows || dataset.components() != data.components) {
+      throw Hdf5Error(fmt::format("{}:{} has the wrong shape when read back", path, data.path));
+    }
+    bytes.resize(data.bytes.size());
+    dataset.read_rows(data.first_row, data.row_count(), bytes.data());
+    if (bytes != data.bytes) {
+      throw Hdf5Error(fmt::format("{}:{} does not hold what was written (full or faulty disk?)", path, data.path));
+    }
+  }
+}
+
+}  // namespace
+
+bool is_dataset_name(std::string_view text) {
+  return !text.empty() &&
+         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+}
+
+void write_hdf5_durably(const Communicator& communicator, const std::filesystem::path& path, const DurableHdf5& plan) {
+  const bool is_root = communicator.rank() == 0;
+  const std::string part = path.string() + ".part";
+  try {
+    collectively<CollectiveError>(communicator, [&] {
+      if (is_root) prepare_file(part, plan);
+    });
+    write_values(communicator, part, plan);
+    if (plan.seal) plan.seal(part);
+    collectively<CollectiveError>(communicator, [&] {
+      if (!is_root) return;
+      release_unused_space(part);
+      synchronise_file(part);
+    });
+    if (plan.verify) plan.verify(part);
+    collectively<CollectiveError>(communicator, [&] { compare_with_file(part, plan.datasets); });
+    collectively<CollectiveError>(communicator, [&] {
+      if (is_root) rename_durably(part, path);
+    });
+  } catch (const CollectiveError&) {
+    // All ranks are here, and all have closed the file.
+    std::error_code ignored;
+    if (is_root) std::filesystem::remove(part, ignored);
+    throw;
+  }
+}
+
+}  // namespace sphdrop
