@@ -1,4 +1,4 @@
-"""Snapshots as pictures: the liquid coloured by its speed, the solid by a stress, particles at their true size."""
+"""Snapshots as pictures: the drop coloured by its speed, the solid by a stress, particles at their true size."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ WATER = LinearSegmentedColormap.from_list("water", ["#0b2f6b", "#1763a8", "#2f9f
 
 
 def masks(snapshot: Snapshot) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which particles are liquid and which solid; without a column that says so all are liquid."""
+    """Which particles are the drop's (liquid, or a rigid ball) and which the solid's; without a column that says so all are
+    the drop's."""
     if "material" in snapshot:
         return snapshot.fluid, snapshot.solid
     return np.ones(snapshot.particle_count, dtype=bool), np.zeros(snapshot.particle_count, dtype=bool)
@@ -83,7 +84,7 @@ def limit(snapshots: Sequence[Snapshot], values: Callable[[Snapshot], Array], ma
 
 
 def colourings(snapshots: Sequence[Snapshot], stress: str) -> tuple[Colouring, Colouring]:
-    liquid = Colouring(speed, "speed of the liquid  (m/s)", WATER, Normalize(0, limit(snapshots, speed, 0)))
+    liquid = Colouring(speed, "speed of the drop  (m/s)", WATER, Normalize(0, limit(snapshots, speed, 0)))
     if stress == "von_mises":
         solid = Colouring(von_mises, "von Mises stress in the plane  (MPa)", matplotlib.colormaps["magma"],
                           Normalize(0, limit(snapshots, von_mises, 1)))
