@@ -28,11 +28,12 @@ PANELS = [
     Panel("deflection  (mm)", {"deflection": ""}, MILLI),
     Panel("contact force  (N/m)", {"contact_force_y": "$y$", "contact_force_x": "$x$"}),
     Panel("contact impulse  (mN s/m)", {"contact_impulse_y": "$y$", "contact_impulse_x": "$x$"}, MILLI),
-    Panel("energy  (mJ/m)", {"kinetic_fluid": "kinetic, liquid", "kinetic_solid": "kinetic, solid", "elastic": "elastic",
+    Panel("energy  (mJ/m)", {"kinetic_fluid": "kinetic, drop", "kinetic_solid": "kinetic, solid", "elastic": "elastic",
                              "contact": "contact", "compressive": "compressive",
-                             "dissipated_fluid": "dissipated, liquid", "dissipated_solid": "dissipated, solid"}, MILLI),
-    Panel("energy since the start  (mJ/m)", {"surface": "surface", "total": "total", "gravity_work": "work of gravity",
-                                             "density_correction_energy": "density correction"}, MILLI, "start"),
+                             "dissipated_fluid": "dissipated, drop", "dissipated_solid": "dissipated, solid"}, MILLI),
+    Panel("energy since the start  (mJ/m)", {"surface": "surface", "total": "total", "gravity": "gravity",
+                                             "density_correction": "density correction",
+                                             "reconnection": "curves detected anew"}, MILLI, "start"),
 ]
 
 

@@ -163,10 +163,18 @@ void HistoryWriter::take_back_incomplete_row() noexcept {
   }
 }
 
-void HistoryWriter::close() {
+void HistoryWriter::synchronise() {
   flush();
   try {
     file_.synchronise();
+  } catch (const std::system_error& error) {
+    throw HistoryError(fmt::format("the history may be incomplete: {}", error.what()));
+  }
+}
+
+void HistoryWriter::close() {
+  synchronise();
+  try {
     file_.close();
   } catch (const std::system_error& error) {
     throw HistoryError(fmt::format("the history may be incomplete: {}", error.what()));

@@ -52,6 +52,8 @@ class HistoryWriter {
   /// Hands the rows so far to the operating system. Throws HistoryError.
   void flush();
   /// As flush(), and on to the disk. Throws HistoryError.
+  void synchronise();
+  /// As synchronise(); no row may follow. Throws HistoryError.
   void close();
 
  private:

@@ -41,12 +41,13 @@ std::string snapshot_file_name(std::int64_t number) {
   return fmt::format("snapshot_{:06}.vtkhdf", number);
 }
 
-SnapshotSeries::SnapshotSeries(const Communicator& communicator, std::filesystem::path directory)
+SnapshotSeries::SnapshotSeries(const Communicator& communicator, std::filesystem::path directory, double resume_time)
     : communicator_(communicator), directory_(std::move(directory)) {
   collectively<SnapshotError>(communicator_, [&] {
     if (communicator_.rank() == 0) times_ = times_in(directory_);
   });
   communicator_.broadcast(times_, 0);
+  times_.erase(std::lower_bound(times_.begin(), times_.end(), resume_time), times_.end());
 }
 
 std::filesystem::path SnapshotSeries::write(const SnapshotHeader& header, const SnapshotRows& rows,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,8 +16,9 @@ namespace sphdrop {
 class SnapshotSeries {
  public:
   /// Collective. Takes up the snapshots that are in `directory` already; SnapshotError on all ranks if one is not
-  /// readable.
-  SnapshotSeries(const Communicator& communicator, std::filesystem::path directory);
+  /// readable. Those at `resume_time` (s) or later do not count: the run goes on from before them.
+  SnapshotSeries(const Communicator& communicator, std::filesystem::path directory,
+                 double resume_time = std::numeric_limits<double>::infinity());
 
   /// Collective. Writes the next snapshot and renews the index; returns the file's path. Snapshots at this time or
   /// later, left over from before a restart, leave the index and are overwritten one by one.

@@ -4,29 +4,43 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <optional>
 
 #include "config/case_file.hpp"
 #include "config/command_line.hpp"
 #include "config/effective_case.hpp"
 #include "config/toml_source.hpp"
 #include "decomposition/communicator.hpp"
+#include "decomposition/stop_signal.hpp"
 #include "io/output_directory.hpp"
 #include "io/provenance.hpp"
+#include "io/run_lock.hpp"
 #include "setup/initial_state.hpp"
 #include "setup/setup_error.hpp"
 #include "simulation/case_check.hpp"
+#include "simulation/checkpointer.hpp"
 #include "simulation/recorder.hpp"
+#include "simulation/restart.hpp"
 
 namespace {
 
 using namespace sphdrop;
 
-enum ExitCode { success = 0, internal_error = 1, user_error = 2, unsafe_state = 3, output_error = 4 };
+enum ExitCode {
+  success = 0,
+  internal_error = 1,
+  user_error = 2,
+  unsafe_state = 3,
+  output_error = 4,
+  interrupted = 5  // stopped in good order: go on with --restart latest
+};
 
 // The text of the case file, read by rank 0 alone; its mistakes are thrown on all ranks.
 std::string shared_case_text(const Communicator& communicator, const std::string& path) {
@@ -76,6 +90,24 @@ void refuse_to_overwrite_case(const Communicator& communicator, const std::files
   if (!error.empty()) throw OutputDirectoryError(error);
 }
 
+// Checkpoints of a run that did not come to its end are not thrown away because someone forgot to write --restart.
+void refuse_to_lose_checkpoints(const Communicator& communicator, const std::filesystem::path& directory) {
+  std::string error;
+  if (communicator.rank() == 0) {
+    std::ifstream file(directory / "run.json");
+    const std::string record{std::istreambuf_iterator<char>(file), {}};
+    const bool came_to_its_end = record.find("\"status\": \"completed\"") != std::string::npos;
+    const std::vector<std::filesystem::path> checkpoints = find_checkpoints(directory);
+    if (!checkpoints.empty() && !came_to_its_end)
+      error = fmt::format(
+          "{} holds checkpoints of a run that is not finished, the newest {}: go on with --restart latest, "
+          "start anew with --fresh, or choose another --output",
+          directory.string(), checkpoints.front().filename().string());
+  }
+  communicator.broadcast(error, 0);
+  if (!error.empty()) throw OutputDirectoryError(error);
+}
+
 // A run starts with an empty folder: snapshots of an earlier, longer run would mix with its own.
 void remove_earlier_results(const Communicator& communicator, const std::filesystem::path& directory) {
   std::string error;
@@ -105,7 +137,16 @@ void write_effective_case(const Communicator& communicator, const std::filesyste
   if (!error.empty()) throw OutputDirectoryError(error);
 }
 
-int run_case(const Communicator& communicator, const CommandLine& command, const std::vector<std::string>& arguments) {
+// Whether there is a checkpoint that the user wants to go on from.
+bool goes_on(const Communicator& communicator, const CommandLine& command, const std::filesystem::path& directory) {
+  if (!command.restart || *command.restart != "auto") return command.restart.has_value();
+  std::vector<std::int64_t> found{static_cast<std::int64_t>(find_checkpoints(directory).size())};
+  communicator.broadcast(found, 0);
+  return found[0] > 0;
+}
+
+int run_case(const Communicator& communicator, const CommandLine& command, const std::vector<std::string>& arguments,
+             std::chrono::steady_clock::time_point start) {
   const std::string text = shared_case_text(communicator, command.case_file);
   ParsedCase parsed = parse_case_text(text, command.case_file, command.overrides);
   Case& input = parsed.values;
@@ -121,12 +162,25 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   const std::filesystem::path directory = input.output.directory;
   prepare_output_directory(communicator, directory);
   refuse_to_overwrite_case(communicator, directory, command.case_file, text, input);
-  remove_earlier_results(communicator, directory);
+  const RunLock lock(communicator, directory);
+  std::optional<Restart> restart;
+  if (goes_on(communicator, command, directory)) {
+    restart = find_restart(communicator, directory, *command.restart == "auto" ? "latest" : *command.restart, input);
+    for (const std::string& note : restart->notes) say(communicator, stderr, note + "\n");
+  } else {
+    if (!command.fresh) refuse_to_lose_checkpoints(communicator, directory);
+    remove_earlier_results(communicator, directory);
+  }
   write_effective_case(communicator, directory, input);
   RunRecord record(communicator, arguments);
+  if (restart) {
+    record.set("restarted_from", restart->checkpoint.path.filename().string());
+    record.set("restarted_at_step", restart->checkpoint.header.step);
+  }
   record.write(directory);
 
   Simulation simulation(communicator, input, initial.fluid, initial.solid);
+  if (restart) simulation.restore(restart->checkpoint);
   RecorderOptions options;
   options.directory = directory;
   options.end_time = command.until ? std::min(*command.until, input.time.end) : input.time.end;
@@ -134,13 +188,28 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   options.progress = command.quiet              ? Progress::Mode::quiet
                      : someone_watches_stderr() ? Progress::Mode::terminal
                                                 : Progress::Mode::log;
-  Recorder recorder(simulation, options);
+  Recorder recorder(simulation, options, restart ? &restart->checkpoint : nullptr);
+  Checkpointer checkpointer(simulation, recorder,
+                            {directory, version_text(), build_info().git_commit, start, command.max_walltime});
+  restart.reset();
   try {
     for (;;) {
+      simulation.settle();
+      if (const std::string why = checkpointer.act(); !why.empty()) {
+        recorder.interrupt();
+        record.finish("interrupted: " + why);
+        record.write(directory);
+        say(communicator, stderr,
+            fmt::format("sphdrop: {}: stopped at step {}, t = {:.6g} s. To go on: --restart latest ({})\n", why,
+                        simulation.step(), simulation.time(), checkpointer.last_checkpoint().string()));
+        return interrupted;
+      }
+      const bool is_last = simulation.time() >= options.end_time;
+      if (is_last) checkpointer.finish();
       simulation.evaluate();
       recorder.observe();
-      if (simulation.time() >= options.end_time) break;
-      simulation.move();
+      if (is_last) break;
+      simulation.move(checkpointer.wish());
     }
   } catch (const SafetyError& error) {
     const std::string& last = recorder.last_snapshot().string();
@@ -164,6 +233,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto start = std::chrono::steady_clock::now();
   MpiEnvironment environment(argc, argv);
   const Communicator communicator(MPI_COMM_WORLD);
   const CommandLine command = parse_command_line(argc, argv);
@@ -181,15 +251,20 @@ int main(int argc, char** argv) {
     return static_cast<int>(code);
   };
   try {
-    return run_case(communicator, command, {argv, argv + argc});
+    catch_stop_signals();
+    return run_case(communicator, command, {argv, argv + argc}, start);
   } catch (const CaseError& error) {
     return fail(user_error, error);
   } catch (const SetupError& error) {
     return fail(user_error, error);
   } catch (const OutputDirectoryError& error) {
     return fail(user_error, error);
+  } catch (const RestartError& error) {
+    return fail(user_error, error);
   } catch (const SafetyError& error) {
     return fail(unsafe_state, error);
+  } catch (const CheckpointError& error) {
+    return fail(output_error, error);
   } catch (const SnapshotError& error) {
     return fail(output_error, error);
   } catch (const HistoryError& error) {

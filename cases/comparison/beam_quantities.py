@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from comparison.exact_beam import Array, Beam
+from comparison.ledgers import drop_mass
 from comparison.quantities import highest_point
 from modal_beam import beam_of
 from numpy.typing import NDArray
@@ -128,8 +129,7 @@ def theory_of(run: Run) -> BeamTheory:
     omega = float(beam.angular_frequencies(1)[0])
     depth = math.nan
     if beam.is_cantilever and case["drop"]["shape"] == "round":
-        mass = case["fluid"]["density"] * math.pi * case["drop"]["diameter"] ** 2 / 4
-        depth = largest_deflection_theory(beam, mass, -case["drop"]["velocity"][1])
+        depth = largest_deflection_theory(beam, drop_mass(case), -case["drop"]["velocity"][1])
     return BeamTheory(omega, 2 * math.pi / omega, depth, depth / beam.length)
 
 

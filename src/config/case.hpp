@@ -114,6 +114,13 @@ struct Case {
     bool operator==(const Output&) const = default;
   } output;
 
+  struct Checkpoint {
+    double interval = 0;       ///< s of simulated time; 0: none for it
+    double wall_interval = 0;  ///< s of wall time; 0: none for it
+    std::int64_t keep = 0;     ///< the newest so many
+    bool operator==(const Checkpoint&) const = default;
+  } checkpoint;
+
   struct Parallel {
     double skin = 0;  ///< neighbour lists reach so far beyond 2h, in units of d
     double imbalance_threshold = 0;

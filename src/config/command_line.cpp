@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string_view>
 
 #include "config/key_suggestion.hpp"
@@ -26,6 +27,21 @@ CommandLine finish(std::string text, int exit_code) {
 CommandLine usage_mistake(const std::string& message) {
   return finish(fmt::format("sphdrop: {}\nUsage: sphdrop [options] case.cfg; sphdrop --help explains.\n", message),
                 usage_exit_code);
+}
+
+// "90", "1:30" or "0:01:30", in s.
+std::optional<double> parse_duration(const std::string& text) {
+  double seconds = 0;
+  std::size_t begin = 0;
+  for (int part = 0; part < 3; ++part) {
+    const std::size_t end = std::min(text.find(':', begin), text.size());
+    const std::optional<double> value = parse_number(text.substr(begin, end - begin));
+    if (!value || !(*value >= 0) || (part > 0 && *value >= 60)) return std::nullopt;
+    seconds = 60 * seconds + *value;
+    if (end == text.size()) return seconds;
+    begin = end + 1;
+  }
+  return std::nullopt;
 }
 
 std::string unexpected_argument(const CLI::App& app, const std::string& argument) {
@@ -54,6 +70,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   bool list_parameters = false;
   bool check = false;
   std::string output;
+  std::string restart;
+  std::string max_walltime;
   std::string until;  // read by parse_number, since the library's conversion heeds the locale
 
   CLI::App app("Droplet impact on elastic beams by smoothed particle hydrodynamics", "sphdrop");
@@ -70,6 +88,17 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
           ->option_text("DIR");
   CLI::Option* until_option = app.add_option("--until", until, "stop at this simulated time, leaving time.end as it is")
                                   ->option_text("SECONDS");
+  CLI::Option* restart_option =
+      app.add_option(
+             "--restart", restart,
+             "go on from a checkpoint: 'latest' in the folder of the results, a file, or 'auto': latest if there "
+             "is any, else from the beginning")
+          ->option_text("latest|auto|FILE");
+  app.add_flag("--fresh", result.fresh, "start from the beginning and remove the checkpoints of an unfinished run");
+  CLI::Option* walltime_option =
+      app.add_option("--max-walltime", max_walltime,
+                     "write a checkpoint and stop in good time before this wall time is over, with exit code 5")
+          ->option_text("SECONDS|H:MM:SS");
   app.add_flag("--quiet", result.quiet, "print warnings, errors and the final state hash only");
 
   try {
@@ -97,6 +126,18 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     result.until = parse_number(until);
     if (!result.until || !(*result.until > 0)) {
       return usage_mistake(fmt::format("--until needs a simulated time > 0 in seconds; it is {}", printable(until)));
+    }
+  }
+  if (restart_option->count() > 0) {
+    if (restart.empty()) return usage_mistake("--restart needs latest, auto or a checkpoint's file");
+    if (result.fresh) return usage_mistake("--restart and --fresh contradict each other");
+    result.restart = restart;
+  }
+  if (walltime_option->count() > 0) {
+    result.max_walltime = parse_duration(max_walltime);
+    if (!result.max_walltime || !(*result.max_walltime > 0)) {
+      return usage_mistake(fmt::format(
+          "--max-walltime needs a time > 0 in seconds or as hours:minutes:seconds; it is {}", printable(max_walltime)));
     }
   }
   return result;

@@ -23,6 +23,9 @@ struct CommandLine {
   std::optional<std::string> output_directory;  ///< instead of the case's output.directory
   std::optional<double> until;                  ///< simulated time to stop at, s, > 0; the case's time.end stays
   bool quiet = false;
+  std::optional<std::string> restart;  ///< "latest", "auto" (latest if there is any) or a checkpoint's path
+  bool fresh = false;                  ///< start anew, whatever checkpoints there are
+  std::optional<double> max_walltime;  ///< s, > 0
 };
 
 /// Prints nothing and does not throw for mistakes of the user: they come back as Action::finish with exit code 2.

@@ -211,6 +211,13 @@ constexpr Parameter table[] = {
     {"output.history_interval", "", "s", real<&C::output, &C::Output::history_interval>(2e-6, positive(largest_time)),
      "simulated time between rows of the history"},
 
+    {"checkpoint.interval", "", "s", real<&C::checkpoint, &C::Checkpoint::interval>(0.0, non_negative(largest_time)),
+     "simulated time between checkpoints; 0 = none for it"},
+    {"checkpoint.wall_interval", "", "s", real<&C::checkpoint, &C::Checkpoint::wall_interval>(600.0, non_negative(1e9)),
+     "wall time between checkpoints; 0 = none for it"},
+    {"checkpoint.keep", "", "-", integer<&C::checkpoint, &C::Checkpoint::keep>(2, 1, 1000000),
+     "the newest checkpoints that are kept"},
+
     {"parallel.skin", "", "d_ini", real<&C::parallel, &C::Parallel::skin>(0.3, positive(5)),
      "neighbour lists reach this far beyond the support 2h, in spacings"},
     {"parallel.imbalance_threshold", "", "-",

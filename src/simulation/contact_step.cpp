@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <stdexcept>
 
 #include "contact/contact_force.hpp"
 
@@ -106,16 +107,28 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
 
 void ContactStep::move_record(int new_owner) {
   if (new_owner == owner_) return;
-  std::vector<double> numbers;
-  std::vector<double> last{last_force_.x, last_force_.y, last_moment_, staggered_angular_impulse_};
-  if (communicator_.rank() == owner_) numbers = record_.to_numbers();
-  communicator_.broadcast(numbers, owner_);
-  communicator_.broadcast(last, owner_);
-  record_ = ContactRecord::from_numbers(numbers);
-  last_force_ = {last[0], last[1]};
-  last_moment_ = last[2];
-  staggered_angular_impulse_ = last[3];
+  from_numbers(to_numbers());
   owner_ = new_owner;
+}
+
+std::vector<double> ContactStep::to_numbers() const {
+  std::vector<double> numbers;
+  if (communicator_.rank() == owner_) {
+    numbers = {last_force_.x, last_force_.y, last_moment_, staggered_angular_impulse_};
+    const std::vector<double> record = record_.to_numbers();
+    numbers.insert(numbers.end(), record.begin(), record.end());
+  }
+  communicator_.broadcast(numbers, owner_);
+  return numbers;
+}
+
+void ContactStep::from_numbers(std::span<const double> numbers) {
+  constexpr std::size_t own = 4;
+  if (numbers.size() < own) throw std::invalid_argument("the stored contact ends too early");
+  last_force_ = {numbers[0], numbers[1]};
+  last_moment_ = numbers[2];
+  staggered_angular_impulse_ = numbers[3];
+  record_ = ContactRecord::from_numbers(numbers.subspan(own));
 }
 
 void ContactStep::start(const FluidParticles& fluid, const SolidParticles& solid) {

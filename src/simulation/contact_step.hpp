@@ -2,6 +2,7 @@
 // Contact between a distributed drop and a distributed solid (Sec. 2.4): gather, solve at the interface's owner,
 // scatter.
 
+#include <span>
 #include <vector>
 
 #include "config/case.hpp"
@@ -55,6 +56,12 @@ class ContactStep {
   /// At the owner: whether an overlap is beyond the limit, and the global id of the deepest particle (-1: none).
   bool overlap_is_too_deep() const { return summary_.overlap_is_too_deep(parameters(1.0)); }
   std::int64_t deepest_particle() const;
+
+  /// Collective: the owner's record and load, the same on every rank.
+  std::vector<double> to_numbers() const;
+  /// On every rank, before the first regather(). Throws std::invalid_argument where the numbers are not of
+  /// to_numbers().
+  void from_numbers(std::span<const double> numbers);
 
  private:
   ContactParameters parameters(double step) const;

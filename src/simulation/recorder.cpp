@@ -1,5 +1,7 @@
 #include "simulation/recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,14 +37,74 @@ double elapsed(std::chrono::steady_clock::time_point since) {
 
 }  // namespace
 
-Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
+Recorder::Recorder(Simulation& simulation, const RecorderOptions& options, const Checkpoint* checkpoint)
     : simulation_(simulation),
       options_(options),
-      snapshots_(simulation.communicator(), options.directory),
+      snapshots_(simulation.communicator(), options.directory,
+                 checkpoint == nullptr ? std::numeric_limits<double>::infinity() : checkpoint->header.time),
       progress_(stderr, simulation.communicator().rank() == 0 ? options.progress : Progress::Mode::quiet,
                 options.end_time),
       start_(std::chrono::steady_clock::now()) {
-  on_first_rank([&] { history_.emplace(HistoryWriter::create(options_.directory, history_columns())); });
+  if (checkpoint != nullptr) restore(*checkpoint);
+  on_first_rank([&] {
+    history_.emplace(checkpoint == nullptr
+                         ? HistoryWriter::create(options_.directory, history_columns())
+                         : HistoryWriter::resume(options_.directory, history_columns(), simulation_.time()));
+  });
+}
+
+std::vector<CheckpointNumbers> Recorder::save() const {
+  std::vector<double> first;
+  if (first_)
+    for (const ObservedQuantity& q : observed_quantities()) first.push_back((*first_).*q.value);
+  const Case::Output& output = simulation_.input().output;
+  return {{"first_observation", "-", "the history's first row, if it is written", std::move(first)},
+          {"extremes", "-", "widest drop, deepest beam and rebound so far", extremes_.to_numbers()},
+          {"ringing_times", "s", "times of the history's rows since the last contact", ringing_times_},
+          {"ringing_deflections", "m", "deflections at these times", ringing_deflections_},
+          {"due_times",
+           "s",
+           "next row, next snapshot; the intervals of both when this was written",
+           {next_row_, next_snapshot_, output.history_interval, output.snapshot_interval}}};
+}
+
+void Recorder::restore(const Checkpoint& checkpoint) {
+  const std::vector<double>& first = checkpoint.numbers_of("first_observation");
+  const std::span<const ObservedQuantity> quantities = observed_quantities();
+  if (!first.empty()) {
+    if (first.size() != quantities.size())
+      throw CheckpointError(fmt::format("{} has {} watched quantities, not {}: it was written by another version",
+                                        checkpoint.path.string(), first.size(), quantities.size()));
+    first_.emplace();
+    for (std::size_t k = 0; k < first.size(); ++k) (*first_).*quantities[k].value = first[k];
+  }
+  try {
+    extremes_ = Extremes::from_numbers(checkpoint.numbers_of("extremes"));
+  } catch (const std::invalid_argument& error) {
+    throw CheckpointError(fmt::format("{}: {}", checkpoint.path.string(), error.what()));
+  }
+  ringing_times_ = checkpoint.numbers_of("ringing_times");
+  ringing_deflections_ = checkpoint.numbers_of("ringing_deflections");
+  const std::vector<double>& due = checkpoint.numbers_of("due_times");
+  if (due.size() != 4) throw CheckpointError(fmt::format("{}: /run/due_times is not whole", checkpoint.path.string()));
+  // Another interval than before begins at its next multiple.
+  const Case::Output& output = simulation_.input().output;
+  const double now = simulation_.time();
+  const auto due_again = [&](double stored, double old_interval, double interval) {
+    if (interval == old_interval) return stored;
+    return interval > 0 ? next_multiple(now, interval) : std::numeric_limits<double>::infinity();
+  };
+  next_row_ = due_again(due[0], due[2], output.history_interval);
+  next_snapshot_ = due_again(due[1], due[3], output.snapshot_interval);
+}
+
+void Recorder::synchronise() {
+  on_first_rank([&] { history_->synchronise(); });
+}
+
+void Recorder::interrupt() {
+  on_first_rank([&] { history_->close(); });
+  progress_.finish();
 }
 
 template <class F>

@@ -10,6 +10,7 @@
 #include "diagnostics/extremes.hpp"
 #include "diagnostics/progress.hpp"
 #include "diagnostics/summary.hpp"
+#include "io/checkpoint.hpp"
 #include "io/history.hpp"
 #include "io/provenance.hpp"
 #include "io/snapshot_series.hpp"
@@ -27,18 +28,27 @@ struct RecorderOptions {
 /// Watches a simulation; all calls are collective. Output of rank 0 that fails throws on all ranks.
 class Recorder {
  public:
-  Recorder(Simulation& simulation, const RecorderOptions& options);
+  /// With a `checkpoint` it goes on with what the run it is of has left behind, which may be nothing in this folder.
+  Recorder(Simulation& simulation, const RecorderOptions& options, const Checkpoint* checkpoint = nullptr);
 
   /// After every evaluate(): writes a history row and a snapshot when they are due, and shows progress.
   void observe();
   /// After the last observe(): the final row and snapshot, if they are not written yet. Returns the state's hash.
   std::uint64_t finish();
 
+  /// The run stops here and goes on another time: what is written reaches the disk, and nothing is added.
+  void interrupt();
+
   RunSummary summary() const;
+  /// What a restored run needs beside the simulation's state; the same on every rank.
+  std::vector<CheckpointNumbers> save() const;
+  /// Sees to it that everything observed so far is on the disk, so that a checkpoint never is ahead of it.
+  void synchronise();
   /// The last snapshot that is known to be whole; empty if there is none.
   const std::filesystem::path& last_snapshot() const { return last_snapshot_; }
 
  private:
+  void restore(const Checkpoint& checkpoint);
   void write_row();
   void write_snapshot();
   std::optional<double> ringing_period() const;

@@ -38,4 +38,12 @@ MotionMaxima RigidBodyStep::move(FluidParticles& drop, StepLengths steps, double
   return motion_maxima(drop, speed_limit);
 }
 
+std::vector<double> RigidBodyStep::to_numbers() const {
+  return is_enabled_ ? body_.to_numbers() : std::vector<double>{};
+}
+
+void RigidBodyStep::from_numbers(std::span<const double> numbers) {
+  if (is_enabled_) body_ = RigidBody::from_numbers(numbers);
+}
+
 }  // namespace sphdrop

@@ -1,6 +1,9 @@
 #pragma once
 // A drop that moves as one rigid body (Sec. 4.4): the body's state, the same bits on every rank, and its particles.
 
+#include <span>
+#include <vector>
+
 #include "config/case.hpp"
 #include "particles/fluid_particles.hpp"
 #include "rigid_body/rigid_body.hpp"
@@ -27,6 +30,11 @@ class RigidBodyStep {
   void accelerate(Vector force, double moment_about_origin, Vector gravity);
   /// Kick and drift (Eqs 36-39) of the body, and the owned particles' positions and staggered velocities.
   MotionMaxima move(FluidParticles& drop, StepLengths steps, double speed_limit);
+
+  /// The body's state; none for a liquid drop.
+  std::vector<double> to_numbers() const;
+  /// Throws std::invalid_argument where the numbers are not of to_numbers().
+  void from_numbers(std::span<const double> numbers);
 
  private:
   bool is_enabled_;

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "diagnostics/energy.hpp"
 #include "fluid/density_correction.hpp"
@@ -24,6 +25,7 @@ enum Maximum : std::size_t {
   squared_displacement,
   squared_detection_displacement,
   failure,
+  requested,
   maxima_count
 };
 
@@ -91,7 +93,7 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
       [&](std::size_t row) { largest = std::max(largest, squared_length(fluid_.staggered_velocity.at(row))); });
   solid_.for_each_owned(
       [&](std::size_t row) { largest = std::max(largest, squared_length(solid_.staggered_velocity.at(row))); });
-  post_maxima({largest, 0, 0, false}, {});
+  post_maxima({largest, 0, 0, false}, {}, 0);
 }
 
 void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSolid& solid) {
@@ -143,10 +145,66 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
   box_high_ += margin;
 }
 
-void Simulation::evaluate() {
-  const std::span<const double> maxima = maxima_.finish();
+void Simulation::restore(const Checkpoint& checkpoint) {
+  const auto expect_rows = [&](const char* name, std::int64_t expected) {
+    const std::int64_t rows = checkpoint.table(name).total_rows;
+    if (rows != expected)
+      throw CheckpointError(fmt::format("{} is of another set-up: it has {} rows of {}, the case makes {}",
+                                        checkpoint.path.string(), rows, name, expected));
+  };
+  expect_rows("fluid", fluid_total_);
+  expect_rows("solid", solid_total_);
+  restore_particles(checkpoint, "fluid", fluid_);
+  restore_particles(checkpoint, "solid", solid_);
+  try {
+    const Clock clock = clock_of(checkpoint.numbers_of("clock"));
+    time_ = clock.time;
+    step_ = clock.step;
+    steps_.previous = clock.previous_step;
+    surface_tension_.from_numbers(checkpoint.numbers_of("surface"));
+    contact_.from_numbers(checkpoint.numbers_of("contact"));
+    rigid_body_.from_numbers(checkpoint.numbers_of("rigid_body"));
+  } catch (const std::invalid_argument& error) {
+    throw CheckpointError(fmt::format("{}: {}", checkpoint.path.string(), error.what()));
+  }
+  const SavedSimulation again = save();
+  if (communicator_.sum(again.hash()) != checkpoint.header.state_hash)
+    throw CheckpointError(fmt::format("{}: the state read is not the one that was written", checkpoint.path.string()));
+
+  double speed = 0, detection_displacement = 0;
+  fluid_.for_each_owned([&](std::size_t row) {
+    speed = std::max(speed, squared_length(fluid_.staggered_velocity.at(row)));
+    detection_displacement =
+        std::max(detection_displacement, squared_length(fluid_.position.at(row) - fluid_.detection_position.at(row)));
+  });
+  solid_.for_each_owned(
+      [&](std::size_t row) { speed = std::max(speed, squared_length(solid_.staggered_velocity.at(row))); });
+  maxima_.finish();
+  settled_ = {};
+  post_maxima({speed, 0, detection_displacement, false}, {}, 0);
+}
+
+SavedSimulation Simulation::save() const {
+  return {StoredParticles("fluid", fluid_, fluid_total_),
+          StoredParticles("solid", solid_, solid_total_),
+          {clock_numbers({time_, step_, steps_.previous}),
+           {"surface", "-", "surface tension: whether the curves were detected, length that came with detections (m)",
+            surface_tension_.to_numbers()},
+           {"contact", "-", "record of the contact and the load of the last step", contact_.to_numbers()},
+           {"rigid_body", "-", "the drop as a rigid body", rigid_body_.to_numbers()}}};
+}
+
+void Simulation::settle() {
+  if (!settled_.empty()) return;
+  settled_ = maxima_.finish();
   timer_.lap(Phase::communication);
-  check_safety(maxima[failure]);
+  request_ = settled_[requested];
+  check_safety(settled_[failure]);
+}
+
+void Simulation::evaluate() {
+  settle();
+  const std::span<const double> maxima = std::exchange(settled_, {});
   detection_is_due_ =
       surface_tension_.is_enabled() &&
       (step_ == 0 || maxima[squared_detection_displacement] >= surface_tension_.largest_squared_displacement());
@@ -191,7 +249,7 @@ void Simulation::evaluate() {
   if (case_.solid.damping_rate > 0) add_mass_proportional_damping(solid_, case_.solid.damping_rate);
 }
 
-void Simulation::move() {
+void Simulation::move(double request) {
   const double limit = case_.safety.speed_limit;
   const MotionMaxima fluid =
       rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit) : kick_and_drift(fluid_, steps_, limit);
@@ -199,17 +257,18 @@ void Simulation::move() {
   time_ += steps_.next;
   ++step_;
   steps_.previous = steps_.next;
-  post_maxima(fluid, solid);
+  post_maxima(fluid, solid, request);
   timer_.lap(Phase::update);
 }
 
-void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid) {
+void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid, double request) {
   std::array<double, maxima_count> mine{};
   mine[squared_speed] = std::max(fluid.squared_speed, solid.squared_speed);
   mine[squared_displacement] = std::max(fluid.squared_displacement, solid.squared_displacement);
   mine[squared_detection_displacement] = fluid.squared_detection_displacement;
   const bool too_deep = contact_.owner() == communicator_.rank() && contact_.overlap_is_too_deep();
   mine[failure] = fluid.beyond_limit || solid.beyond_limit || too_deep ? 1.0 : 0.0;
+  mine[requested] = request;
   maxima_.start(mine);
 }
 
@@ -228,6 +287,7 @@ void Simulation::redistribute_if_due(double largest_squared_displacement) {
   solid_sweep_.update_stress(solid_, solid_.ghosts);
   contact_.regather(fluid_, solid_, parameters_.range);
   if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_);
+  if (surface_tension_.is_enabled() && !is_distributed_) surface_tension_.recover(fluid_, distribution_);
   is_distributed_ = true;
   ++redistributions_;
   timer_.lap(Phase::redistribution);

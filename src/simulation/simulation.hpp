@@ -1,12 +1,14 @@
 #pragma once
 // The state of a run and its step (Sec. 2.6).
 
+#include <span>
 #include <stdexcept>
 #include <vector>
 
 #include "config/case.hpp"
 #include "decomposition/communicator.hpp"
 #include "fluid/fluid_sweep.hpp"
+#include "io/checkpoint.hpp"
 #include "particles/fluid_particles.hpp"
 #include "particles/solid_particles.hpp"
 #include "setup/initial_particles.hpp"
@@ -14,6 +16,7 @@
 #include "simulation/distribution.hpp"
 #include "simulation/phase_timer.hpp"
 #include "simulation/rigid_body_step.hpp"
+#include "simulation/saved_simulation.hpp"
 #include "simulation/surface_tension_step.hpp"
 #include "solid/hypoelastic/hypoelastic_sweep.hpp"
 #include "time_integration/leapfrog.hpp"
@@ -47,11 +50,22 @@ class Simulation {
   Simulation(const Communicator& communicator, const Case& input, const InitialFluid& initial_fluid,
              const InitialSolid& initial_solid);
 
-  /// Everything that belongs to the present instant: predicted values, stresses, forces, the step to come.
-  /// Throws SafetyError.
+  /// Takes up the run of a checkpoint, before the first evaluate(): every later step has the same bits as if that run
+  /// had never stopped. Throws CheckpointError if the checkpoint is not of these particles.
+  void restore(const Checkpoint& checkpoint);
+
+  /// Waits for what move() left under way. Throws SafetyError if the state is not sound.
+  void settle();
+  /// Everything that belongs to the present instant: predicted values, stresses, forces, the step to come. Settles
+  /// first where that has not been done.
   void evaluate();
-  /// Kick and drift to the next instant (Eqs 36-39).
-  void move();
+  /// Kick and drift to the next instant (Eqs 36-39). The largest `request` of all ranks is known after settle().
+  void move(double request = 0);
+
+  /// What was asked for with the last move(), the same on every rank; good after settle().
+  double request() const { return request_; }
+  /// All that the steps to come start from; between settle() and evaluate().
+  SavedSimulation save() const;
 
   double time() const { return time_; }
   std::int64_t step() const { return step_; }
@@ -79,7 +93,7 @@ class Simulation {
 
  private:
   void take_initial_state(const InitialFluid& fluid, const InitialSolid& solid);
-  void post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid);
+  void post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid, double request);
   void check_safety(double failure);
   [[noreturn]] void stop_with_diagnosis();
   void check_nothing_is_lost();
@@ -115,6 +129,8 @@ class Simulation {
   double time_ = 0;
   std::int64_t step_ = 0;
   StepLengths steps_;
+  std::span<const double> settled_;  // what move() left under way, once it is known; empty before
+  double request_ = 0;
   bool is_distributed_ = false;
   bool detection_is_due_ = true;
   std::int64_t redistributions_ = 0, detections_ = 0;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "diagnostics/number_reader.hpp"
 #include "sph/cell_grid.hpp"
 #include "surface_tension/surface_force.hpp"
 #include "surface_tension/surface_points.hpp"
@@ -34,6 +35,23 @@ void SurfaceTensionStep::detect(FluidParticles& fluid, Distribution& distributio
   regather(fluid);
   if (has_curves_) reconnected_length_ += length_on_all_ranks() - old_length;
   has_curves_ = true;
+}
+
+void SurfaceTensionStep::recover(FluidParticles& fluid, Distribution& distribution) {
+  if (!has_curves_) return;
+  find_arcs(fluid, distribution);
+  regather(fluid);
+}
+
+std::vector<double> SurfaceTensionStep::to_numbers() const {
+  return {has_curves_ ? 1.0 : 0.0, reconnected_length_};
+}
+
+void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
+  NumberReader reader(numbers, "surface");
+  has_curves_ = reader.flag();
+  reconnected_length_ = reader.number();
+  reader.expect_end();
 }
 
 // The present surface points at the owner, on the curves of the last detection.

@@ -1,6 +1,7 @@
 #pragma once
 // Surface tension on a distributed drop (Sec. 2.5): detection on every rank, forces at the interface's owner.
 
+#include <span>
 #include <vector>
 
 #include "config/case.hpp"
@@ -40,6 +41,9 @@ class SurfaceTensionStep {
   /// Collective. Brings the band along the surface to its owner; after detect() and after every redistribution.
   void regather(const FluidParticles& fluid);
 
+  /// Collective. After the first redistribution of a restored run: the curves of the last detection, if there was one.
+  void recover(FluidParticles& fluid, Distribution& distribution);
+
   /// Sends the band's positions to the owner.
   void start(const FluidParticles& fluid);
   /// At the owner: surface points, forces and their shares; starts sending them back.
@@ -53,6 +57,11 @@ class SurfaceTensionStep {
   double reconnected_length() const { return reconnected_length_; }
   /// At the owner, of the instant last worked on.
   SurfaceReport report() const;
+
+  /// What a restored run needs beside the particles.
+  std::vector<double> to_numbers() const;
+  /// Throws std::invalid_argument where the numbers are not of to_numbers().
+  void from_numbers(std::span<const double> numbers);
 
  private:
   void find_arcs(FluidParticles& fluid, Distribution& distribution);

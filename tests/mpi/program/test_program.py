@@ -71,7 +71,7 @@ class Results(ProgramTest):
             [name for name in files if name.startswith("snapshot_")],
             ["snapshot_000000.vtkhdf", "snapshot_000001.vtkhdf", "snapshot_000002.vtkhdf"],
         )
-        for name in set(files) - {"run.json", "case.cfg"}:
+        for name in set(files) - {"run.json", "run.lock", "case.cfg"}:
             alone = (self.directory / "1" / name).read_bytes()
             for ranks in ("2", "3"):
                 self.assertEqual(alone, (self.directory / ranks / name).read_bytes(), f"{name} on {ranks} ranks")

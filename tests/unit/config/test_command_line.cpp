@@ -72,8 +72,8 @@ TEST(CommandLineTest, AnswersQuestionsWithoutACase) {
   const CommandLine help = parse({"--help"});
   EXPECT_EQ(help.action, Action::finish);
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* option :
-       {"--help", "--version", "--list-parameters", "--check", "--set", "--output", "--until", "--quiet", "case.cfg"}) {
+  for (const char* option : {"--help", "--version", "--list-parameters", "--check", "--set", "--output", "--until",
+                             "--quiet", "--restart", "--fresh", "--max-walltime", "case.cfg"}) {
     EXPECT_NE(help.text.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(parse({"-h"}).text, help.text);
@@ -103,6 +103,23 @@ TEST(CommandLineTest, ExplainsMistakes) {
   expect_usage_mistake({"case.cfg", "--until", "nan"}, "--until");
   expect_usage_mistake({"case.cfg", "--until", "1e999"}, "--until");
   expect_usage_mistake({"case.cfg", "--until", "1", "--until", "2"}, "--until");
+  expect_usage_mistake({"case.cfg", "--restart", ""}, "--restart needs latest, auto or a checkpoint's file");
+  expect_usage_mistake({"case.cfg", "--restart", "latest", "--fresh"}, "--restart and --fresh contradict each other");
+  for (const char* duration : {"", "0", "-5", "soon", "1:60", "1:2:3:4", "1::2", "nan", "1:-2"})
+    expect_usage_mistake({"case.cfg", "--max-walltime", duration}, "--max-walltime needs a time > 0 in seconds");
+}
+
+TEST(CommandLineTest, TakesUpRunsAndLimitsThem) {
+  EXPECT_FALSE(parse({"case.cfg"}).restart);
+  EXPECT_FALSE(parse({"case.cfg"}).fresh);
+  EXPECT_FALSE(parse({"case.cfg"}).max_walltime);
+  EXPECT_EQ(parse({"case.cfg", "--restart", "latest"}).restart, "latest");
+  EXPECT_EQ(parse({"--restart=results/a/checkpoint_000000000042.h5", "case.cfg"}).restart,
+            "results/a/checkpoint_000000000042.h5");
+  EXPECT_TRUE(parse({"--fresh", "case.cfg"}).fresh);
+  EXPECT_EQ(parse({"case.cfg", "--max-walltime", "90"}).max_walltime, 90.0);
+  EXPECT_EQ(parse({"case.cfg", "--max-walltime", "1:30"}).max_walltime, 90.0);
+  EXPECT_EQ(parse({"case.cfg", "--max-walltime", "24:00:01.5"}).max_walltime, 86401.5);
 }
 
 }  // namespace

@@ -171,11 +171,13 @@ TEST(ParameterTable, CoversEveryMemberOfCase) {
   expect_covered("surface_tension", sizeof(Case::SurfaceTension));
   expect_covered("gravity", sizeof(Case::Gravity));
   expect_covered("output", sizeof(Case::Output));
+  expect_covered("checkpoint", sizeof(Case::Checkpoint));
   expect_covered("parallel", sizeof(Case::Parallel));
   expect_covered("safety", sizeof(Case::Safety));
   std::size_t sections = sizeof(Case::Resolution) + sizeof(Case::Time) + sizeof(Case::Fluid) + sizeof(Case::Drop) +
                          sizeof(Case::Solid) + sizeof(Case::Contact) + sizeof(Case::SurfaceTension) +
-                         sizeof(Case::Gravity) + sizeof(Case::Output) + sizeof(Case::Parallel) + sizeof(Case::Safety);
+                         sizeof(Case::Gravity) + sizeof(Case::Output) + sizeof(Case::Checkpoint) +
+                         sizeof(Case::Parallel) + sizeof(Case::Safety);
   EXPECT_EQ(sizeof(Case), sections + sizeof(std::string) + 8);  // name, mode and its padding
 }
 

@@ -1,0 +1,61 @@
+#include "simulation/restart.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "config/case_error.hpp"
+#include "config/case_file.hpp"
+#include "config/restart_changes.hpp"
+
+namespace sphdrop {
+
+namespace {
+
+Case case_of(const Checkpoint& checkpoint) {
+  return parse_case_text(checkpoint.header.case_text, "its case", {}).values;
+}
+
+std::string change_text(const ParameterChange& change) {
+  return fmt::format("{} was {}, is now {}", change.key, change.before, change.after);
+}
+
+}  // namespace
+
+std::string restart_objection(const Checkpoint& checkpoint, const Case& input) {
+  std::vector<std::string> refused;
+  try {
+    for (const ParameterChange& change : parameter_changes(case_of(checkpoint), input))
+      if (!may_change_on_restart(change.key)) refused.push_back(change_text(change));
+  } catch (const CaseError& error) {
+    return fmt::format("holds a case that this version does not understand: {}", error.what());
+  }
+  if (refused.empty()) return {};
+  return fmt::format(
+      "is of another case: {} (only time.end and the sections output, checkpoint, parallel and safety may "
+      "change on a restart)",
+      fmt::join(refused, "; "));
+}
+
+Restart find_restart(const Communicator& communicator, const std::filesystem::path& directory,
+                     const std::string& choice, const Case& input) {
+  Restart restart;
+  try {
+    if (choice == "latest") {
+      LatestCheckpoint latest = read_latest_checkpoint(
+          communicator, directory, [&](const Checkpoint& checkpoint) { return restart_objection(checkpoint, input); });
+      restart.checkpoint = std::move(latest.checkpoint);
+      for (const std::string& why : latest.refused) restart.notes.push_back("warning: passed over " + why);
+    } else {
+      restart.checkpoint = read_checkpoint(communicator, choice);
+      if (const std::string objection = restart_objection(restart.checkpoint, input); !objection.empty())
+        throw CheckpointError(fmt::format("{} {}", choice, objection));
+    }
+  } catch (const CheckpointError& error) {
+    throw RestartError(fmt::format("cannot go on: {}", error.what()));
+  }
+  for (const ParameterChange& change : parameter_changes(case_of(restart.checkpoint), input))
+    restart.notes.push_back("note: " + change_text(change));
+  return restart;
+}
+
+}  // namespace sphdrop
