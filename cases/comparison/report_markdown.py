@@ -8,8 +8,7 @@ from pathlib import Path
 
 from comparison.model import Comparison, StudyReport
 from comparison.study import Drawing
-from comparison.tables import (LEGEND, QUANTITY_HEADINGS, RUN_HEADINGS, commits_line, counts_line, quantity_cells, run_cells,
-                               runs_line, study_line, summary)
+from comparison.tables import LEGEND, QUANTITY_HEADINGS, RUN_HEADINGS, quantity_cells, run_cells, study_line, summary
 
 BEGIN = "<!-- comparison: written by compare.py --update-comparison -->\n"
 END = "<!-- end of comparison -->\n"
@@ -31,9 +30,9 @@ def quantity_table(comparison: Comparison) -> list[str]:
 
 
 def table_text(comparison: Comparison) -> str:
-    """What cases/COMPARISON.md holds: no dates and no machine, so that it changes only with the results."""
-    head = f"Level {comparison.level}, {runs_line(comparison)}, {commits_line(comparison)}: {counts_line(comparison)}."
-    return "\n".join([head, "", LEGEND, "", *quantity_table(comparison)]) + "\n"
+    """What cases/COMPARISON.md holds: how the table came about, and the table."""
+    head = table_lines(("", ""), [list(entry) for entry in summary(comparison)])
+    return "\n".join([*head, "", LEGEND, "", *quantity_table(comparison)]) + "\n"
 
 
 def updated_page(page: str, table: str) -> str:
