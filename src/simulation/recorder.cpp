@@ -196,8 +196,7 @@ void Recorder::write_snapshot() {
   const SnapshotTable table(simulation_.fluid(), simulation_.solid());
   const SnapshotHeader header{simulation_.time(), simulation_.step(), hash_, simulation_.input().name,
                               options_.version};
-  last_snapshot_ =
-      snapshots_.write(header, table.rows(simulation_.fluid_total() + simulation_.solid_total()), table.columns());
+  snapshots_.write(header, table.rows(simulation_.fluid_total() + simulation_.solid_total()), table.columns());
   last_snapshot_step_ = simulation_.step();
 }
 

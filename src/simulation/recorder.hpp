@@ -45,7 +45,7 @@ class Recorder {
   /// Sees to it that everything observed so far is on the disk, so that a checkpoint never is ahead of it.
   void synchronise();
   /// The last snapshot that is known to be whole; empty if there is none.
-  const std::filesystem::path& last_snapshot() const { return last_snapshot_; }
+  std::filesystem::path last_snapshot() const { return snapshots_.last(); }
 
  private:
   void restore(const Checkpoint& checkpoint);
@@ -59,7 +59,6 @@ class Recorder {
   RecorderOptions options_;
   std::optional<HistoryWriter> history_;  // on rank 0
   SnapshotSeries snapshots_;
-  std::filesystem::path last_snapshot_;
   Progress progress_;
   Extremes extremes_;
   std::vector<double> ringing_times_, ringing_deflections_;  // since the last contact

@@ -25,6 +25,7 @@ ALLOWED: dict[str, set[str]] = {
     "setup": {"particles", "contact", "rigid_body", "config/case.hpp"},
 }
 ALLOWED["simulation"] = set(ALLOWED) - {"config"} | {"config/case.hpp"}
+ALLOWED["run"] = set(ALLOWED) | {"config"}
 ALLOWED["main.cpp"] = set(ALLOWED) | {"config"}
 
 # Plain data, which is used without linking what reads it.

@@ -1,4 +1,4 @@
-#include "simulation/restart.hpp"
+#include "run/restart.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,20 +39,18 @@ std::string restart_objection(const Checkpoint& checkpoint, const Case& input) {
 Restart find_restart(const Communicator& communicator, const std::filesystem::path& directory,
                      const std::string& choice, const Case& input) {
   Restart restart;
-  try {
+  taking_up([&] {
     if (choice == "latest") {
-      LatestCheckpoint latest = read_latest_checkpoint(
-          communicator, directory, [&](const Checkpoint& checkpoint) { return restart_objection(checkpoint, input); });
+      LatestCheckpoint latest = read_latest_checkpoint(communicator, directory);
       restart.checkpoint = std::move(latest.checkpoint);
       for (const std::string& why : latest.refused) restart.notes.push_back("warning: passed over " + why);
     } else {
       restart.checkpoint = read_checkpoint(communicator, choice);
-      if (const std::string objection = restart_objection(restart.checkpoint, input); !objection.empty())
-        throw CheckpointError(fmt::format("{} {}", choice, objection));
     }
-  } catch (const CheckpointError& error) {
-    throw RestartError(fmt::format("cannot go on: {}", error.what()));
-  }
+    // Older ones in the same folder are of the same run, and so of the same case.
+    if (const std::string objection = restart_objection(restart.checkpoint, input); !objection.empty())
+      throw CheckpointError(fmt::format("{} {}", restart.checkpoint.path.string(), objection));
+  });
   for (const ParameterChange& change : parameter_changes(case_of(restart.checkpoint), input))
     restart.notes.push_back("note: " + change_text(change));
   return restart;

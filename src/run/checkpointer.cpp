@@ -1,4 +1,4 @@
-#include "simulation/checkpointer.hpp"
+#include "run/checkpointer.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ double next_multiple(double time, double interval) {
 
 }  // namespace
 
-Checkpointer::Checkpointer(const Simulation& simulation, Recorder& recorder, const CheckpointerOptions& options)
+Checkpointer::Checkpointer(Simulation& simulation, Recorder& recorder, const CheckpointerOptions& options)
     : simulation_(simulation),
       recorder_(recorder),
       options_(options),
@@ -106,6 +106,7 @@ void Checkpointer::write() {
                                       static_cast<int>(input.checkpoint.keep));
   last_step_ = simulation_.step();
   last_cost_ = seconds_since_start() - begin;
+  simulation_.timer().lap(Phase::output);
 }
 
 }  // namespace sphdrop

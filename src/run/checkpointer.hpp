@@ -22,7 +22,7 @@ struct CheckpointerOptions {
 /// known to all with the step's reduction, so that all act together.
 class Checkpointer {
  public:
-  Checkpointer(const Simulation& simulation, Recorder& recorder, const CheckpointerOptions& options);
+  Checkpointer(Simulation& simulation, Recorder& recorder, const CheckpointerOptions& options);
 
   /// What this rank asks for: a checkpoint because it is time for one, a stop because a signal came or the wall time
   /// runs out, or nothing (0).
@@ -45,7 +45,7 @@ class Checkpointer {
   double seconds_since_start() const;
   double expected_cost() const;
 
-  const Simulation& simulation_;
+  Simulation& simulation_;
   Recorder& recorder_;
   CheckpointerOptions options_;
   std::filesystem::path last_checkpoint_;
