@@ -11,6 +11,7 @@
 
 #include "config/case_error.hpp"
 #include "config/case_file.hpp"
+#include "config/parameter_store.hpp"
 #include "config/toml_source.hpp"
 #include "io/output_directory.hpp"
 #include "io/provenance.hpp"
@@ -53,6 +54,18 @@ bool someone_watches_stderr() {
   std::error_code unknown;
   const auto target = std::filesystem::read_symlink(fmt::format("/proc/{}/fd/2", getppid()), unknown);
   return !unknown && target.string().starts_with("/dev/pts/");
+}
+
+// When the run must be over, s after the program's start: what the user allows, and when Slurm ends the job.
+std::optional<double> walltime_limit(const CommandLine& command, std::chrono::steady_clock::time_point start) {
+  std::optional<double> limit = command.max_walltime;
+  const char* job_end = std::getenv("SLURM_JOB_END_TIME");  // UNIX time, s
+  const std::optional<double> end = job_end == nullptr ? std::nullopt : parse_number(job_end);
+  if (!end) return limit;
+  const std::chrono::duration<double> now = std::chrono::system_clock::now().time_since_epoch();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const double job_limit = elapsed.count() + *end - now.count();
+  return std::min(limit.value_or(job_limit), job_limit);
 }
 
 // Whether there is a checkpoint that the user wants to go on from.
@@ -110,8 +123,9 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
                                                 : Progress::Mode::log;
   Recorder recorder =
       taking_up([&] { return Recorder(simulation, options, restart ? &restart->checkpoint : nullptr); });
-  Checkpointer checkpointer(simulation, recorder,
-                            {directory, version_text(), build_info().git_commit, start, command.max_walltime});
+  Checkpointer checkpointer(
+      simulation, recorder,
+      {directory, version_text(), build_info().git_commit, start, walltime_limit(command, start)});
   restart.reset();
   try {
     for (;;) {
