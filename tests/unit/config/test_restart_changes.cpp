@@ -24,8 +24,8 @@ Case parse(const std::vector<std::string>& overrides = {}) {
 
 TEST(RestartChanges, NamesWhatDiffersInTheTablesOrder) {
   EXPECT_TRUE(parameter_changes(parse(), parse()).empty());
-  const auto changes =
-      parameter_changes(parse(), parse({"surface_tension.form=curvature", "drop.arrangement=lattice", "time.step=1e-9"}));
+  const auto changes = parameter_changes(
+      parse(), parse({"surface_tension.form=curvature", "drop.arrangement=lattice", "time.step=1e-9"}));
   ASSERT_EQ(changes.size(), 3U);
   EXPECT_EQ(changes[0].key, "time.step");
   EXPECT_EQ(changes[1].key, "drop.arrangement");
