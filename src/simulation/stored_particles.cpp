@@ -12,11 +12,8 @@ namespace sphdrop {
 namespace {
 
 std::string column_name(const Field& field, int component) {
-  static constexpr const char* vector_suffix[] = {"_x", "_y"};
-  static constexpr const char* tensor_suffix[] = {"_xx", "_yy", "_xy"};
-  const std::string name(field.name);
-  if (field.components == 1) return name;
-  return name + (field.components == 2 ? vector_suffix : tensor_suffix)[component];
+  static constexpr const char* suffixes[3][3] = {{"", "", ""}, {"_x", "_y", ""}, {"_xx", "_yy", "_xy"}};
+  return std::string(field.name) + suffixes[field.components - 1][component];
 }
 
 template <class F>
