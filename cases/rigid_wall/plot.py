@@ -79,7 +79,7 @@ def measure(results: Results) -> dict[str, float]:
     if "U0.8" in results:
         found["widest_at_U0.8"] = quantities.largest_width(results["U0.8"])[0]
     for name, run in results.items():
-        if name.endswith("U2.0"):
+        if "U2.0" in name:
             pieces = [quantities.fragments(snapshot) for snapshot in run.snapshots]
             found[f"pieces_at_most_{name}"] = float(max(pieces))
             found[f"pieces_at_end_{name}"] = float(pieces[-1])
@@ -224,7 +224,10 @@ PICTURES = (
 )
 STRIPS = (
     ("rebound.png", "U0.8", "Impact, spreading and rebound at 0.8 m/s (We = 8.9).", [0.0, 0.3, 0.8, 1.5, 2.2, 3.0, 3.8, 4.6]),
-    ("rebound_We55.png", "U2.0", "Impact at 2 m/s (We = 55.5).", [0.3, 1.0, 2.0, 2.7, 4.0, 5.5, 7.0, 12.0]),
+    ("rebound_We55.png", "U2.0", "Impact at 2 m/s (We = 55.5), sound speed 150 m/s.",
+     [0.3, 1.0, 2.0, 2.7, 4.0, 5.5, 7.0, 12.0]),
+    ("rebound_We55_sound50.png", "U2.0_sound50", "Impact at 2 m/s (We = 55.5), sound speed 50 m/s: the film tears.",
+     [0.3, 1.0, 2.0, 2.7, 4.0, 5.5, 7.0, 12.0]),
     ("rebound_We55_viscous.png", "alpha1.0_U2.0", "Impact at 2 m/s (We = 55.5) with alpha = 1.",
      [0.3, 1.0, 2.0, 2.7, 4.0, 5.5, 7.0, 12.0]),
 )
