@@ -149,11 +149,12 @@ void write_time(Text& text, const RunSummary& summary) {
   }
   if (!summary.phases.empty()) row("other", summary.wall_time - named);
   row("total", summary.wall_time);
-  const double updates = static_cast<double>(summary.particles) * static_cast<double>(summary.steps);
+  const std::int64_t steps = summary.steps - summary.first_step;
+  const double updates = static_cast<double>(summary.particles) * static_cast<double>(steps);
   if (updates > 0.0)
     text.entry("per particle and step",
                fmt::format("{:.1f} ns ({} particles, {} steps, {} rank{})", 1e9 * summary.wall_time / updates,
-                           summary.particles, summary.steps, summary.ranks, summary.ranks == 1 ? "" : "s"));
+                           summary.particles, steps, summary.ranks, summary.ranks == 1 ? "" : "s"));
   text.entry("load, largest / mean", fmt::format("{:.3f}", summary.load_imbalance));
 }
 

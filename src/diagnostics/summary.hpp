@@ -32,8 +32,9 @@ struct PhaseTime {
 
 /// Everything the summary tells, SI units; what a case does not have stays empty and its lines are left out.
 struct RunSummary {
-  double simulated_time = 0;  ///< s
-  std::int64_t steps = 0;
+  double simulated_time = 0;    ///< s
+  std::int64_t steps = 0;       ///< from the beginning, before a restart too
+  std::int64_t first_step = 0;  ///< at which this part of the run began; wall_time and phases count from there
 
   struct Contact {
     std::optional<double> first, last;  ///< s; empty: never touched

@@ -44,6 +44,7 @@ Recorder::Recorder(Simulation& simulation, const RecorderOptions& options, const
                  checkpoint == nullptr ? std::numeric_limits<double>::infinity() : checkpoint->header.time),
       progress_(stderr, simulation.communicator().rank() == 0 ? options.progress : Progress::Mode::quiet,
                 options.end_time),
+      first_step_(simulation.step()),
       start_(std::chrono::steady_clock::now()) {
   if (checkpoint != nullptr) restore(*checkpoint);
   on_first_rank([&] {
@@ -206,6 +207,7 @@ RunSummary Recorder::summary() const {
   RunSummary r;
   r.simulated_time = simulation_.time();
   r.steps = simulation_.step();
+  r.first_step = first_step_;
 
   // The contact's record lives at its owner.
   std::vector<double> record;

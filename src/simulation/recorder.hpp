@@ -64,6 +64,7 @@ class Recorder {
   std::vector<double> ringing_times_, ringing_deflections_;  // since the last contact
   std::optional<Observation> first_, last_;
   double next_row_ = 0, next_snapshot_ = 0;
+  std::int64_t first_step_;
   std::int64_t last_snapshot_step_ = -1;
   std::uint64_t hash_ = 0;
   std::chrono::steady_clock::time_point start_;

@@ -120,6 +120,14 @@ TEST(Summary, WallTimeAndLoad) {
   EXPECT_EQ(value_of(text, "load, largest / mean"), "1.070");
 }
 
+TEST(Summary, ARestartedPartCountsItsOwnStepsOnly) {
+  RunSummary run = full();
+  run.first_step = 800000;
+  const std::string text = summary_text(run);
+  EXPECT_EQ(value_of(text, "per particle and step"), "25.0 ns (5000 particles, 800000 steps, 2 ranks)");
+  EXPECT_EQ(value_of(text, "simulated time"), "8.0000 ms in 1600000 steps");
+}
+
 TEST(Summary, EndsWithTheStateHash) {
   RunSummary run = full();
   EXPECT_TRUE(summary_text(run).ends_with("\nstate hash 0123456789abcdef\n"));
