@@ -50,6 +50,10 @@ SnapshotSeries::SnapshotSeries(const Communicator& communicator, std::filesystem
   times_.erase(std::lower_bound(times_.begin(), times_.end(), resume_time), times_.end());
 }
 
+std::filesystem::path SnapshotSeries::last() const {
+  return times_.empty() ? std::filesystem::path() : directory_ / snapshot_file_name(count() - 1);
+}
+
 std::filesystem::path SnapshotSeries::write(const SnapshotHeader& header, const SnapshotRows& rows,
                                             std::span<const SnapshotColumn> columns) {
   const auto later = std::lower_bound(times_.begin(), times_.end(), header.time);

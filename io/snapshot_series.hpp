@@ -25,6 +25,9 @@ class SnapshotSeries {
   std::filesystem::path write(const SnapshotHeader& header, const SnapshotRows& rows,
                               std::span<const SnapshotColumn> columns);
 
+  /// The last one in the index; empty if there is none.
+  std::filesystem::path last() const;
+
   /// Snapshots in the index.
   std::int64_t count() const { return static_cast<std::int64_t>(times_.size()); }
 
