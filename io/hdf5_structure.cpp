@@ -23,7 +23,7 @@ std::vector<std::string> Hdf5File::members(const std::string& group, H5O_type_t 
     name.pop_back();
     H5O_info_t object = {};
     checked(H5Oget_info_by_name2(opened.get(), name.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT), "H5Oget_info",
-            what + "/" + name);
+            fmt::format("{}/{}", what, name));
     if (object.type == kind) names.push_back(std::move(name));
   }
   return names;
