@@ -15,6 +15,8 @@ TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "README.md", "src", "decompo
 DATA_SUFFIXES = {".csv", ".svg", ".png", ".pdf"}
 MOST_LINES = 450
 MOST_BYTES = 1 << 20
+# A table that a program writes into a page is data, like a .csv file.
+WRITTEN_TABLE = re.compile(r"^<!-- \w+: written by .*? -->$.*?^<!-- end of \w+ -->$", flags=re.DOTALL | re.MULTILINE)
 
 # Put together from pieces, so that this file does not contain them.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b")
@@ -47,7 +49,10 @@ class Layout(unittest.TestCase):
         for path in tracked_files():
             if path.suffix not in DATA_SUFFIXES and is_text(path):
                 with self.subTest(file=str(path)):
-                    self.assertLess(len(text_of(path).splitlines()), MOST_LINES)
+                    text = text_of(path)
+                    if path.suffix == ".md":
+                        text = WRITTEN_TABLE.sub("", text)
+                    self.assertLess(len(text.splitlines()), MOST_LINES)
 
     def test_files_are_small(self) -> None:
         for path in tracked_files():
