@@ -138,12 +138,22 @@ class History(Mapping[str, NDArray[np.float64]]):
     """The watched quantities over time: an array for each name."""
 
     def __init__(self, path: str | Path) -> None:
-        self.path = Path(path)
         try:
-            with self.path.open(newline="", encoding="utf-8") as stream:
-                rows = list(csv.reader(stream))
+            text = Path(path).read_text(encoding="utf-8")
         except OSError as error:
-            raise ResultError(f"{self.path}: cannot be read: {error.strerror}") from error
+            raise ResultError(f"{path}: cannot be read: {error.strerror}") from error
+        self._take(path, text)
+
+    @classmethod
+    def of_text(cls, path: str | Path, text: str) -> History:
+        """From the file's text, or its first lines, while the run still writes it."""
+        history = cls.__new__(cls)
+        history._take(path, text)
+        return history
+
+    def _take(self, path: str | Path, text: str) -> None:
+        self.path = Path(path)
+        rows = list(csv.reader(text.splitlines()))
         if not rows:
             raise ResultError(f"{self.path}: is empty")
         self._units: dict[str, str] = {}

@@ -1,0 +1,9 @@
+"""sphdrop-view: a run, or several side by side, as figures, an animation and a page for the browser."""
+
+import sys
+from pathlib import Path
+
+CASES = Path(__file__).resolve().parents[1]
+for folder in (CASES, CASES.parent / "io"):
+    if str(folder) not in sys.path:
+        sys.path.insert(0, str(folder))
