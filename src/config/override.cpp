@@ -7,6 +7,7 @@
 #include "config/case_error.hpp"
 #include "config/key_suggestion.hpp"
 #include "config/parameter_table.hpp"
+#include "config/quantity.hpp"
 #include "config/utf8.hpp"
 
 namespace sphdrop {
@@ -27,6 +28,11 @@ bool is_letters(const std::string& text) {
   return text != "inf" && text != "nan" && text != "true" && text != "false" &&
          std::all_of(text.begin(), text.end(),
                      [](char c) { return ((c | 0x20) >= 'a' && (c | 0x20) <= 'z') || c == '_'; });
+}
+
+// "1.5 mm" or "300MPa"; 0x1F, 1_000 and dates are TOML's.
+bool has_unit(const std::string& text) {
+  return looks_like_quantity(text) && text.find_first_of("_xob:,\"'") == std::string::npos;
 }
 
 TomlNode text_node(const std::string& text) {
@@ -63,7 +69,8 @@ Override parse_override(const std::string& text) {
   } else {
     const bool takes_words = std::holds_alternative<WordParameter>(parameter->value) ||
                              std::holds_alternative<TextParameter>(parameter->value);
-    if ((takes_words && !is_quoted(value)) || is_letters(value)) {
+    // A value with a unit needs no quotes here, which a shell would eat.
+    if ((takes_words && !is_quoted(value)) || is_letters(value) || (!takes_words && has_unit(value))) {
       parsed.value = text_node(value);
       return parsed;
     }

@@ -10,6 +10,7 @@
 #include "config/nearest_name.hpp"
 #include "config/overloaded.hpp"
 #include "config/parameter_text.hpp"
+#include "config/quantity.hpp"
 #include "config/utf8.hpp"
 
 namespace sphdrop {
@@ -69,7 +70,11 @@ Taken<std::int64_t> take_integer(const TomlNode& node) {
   return {value, ""};
 }
 
-Taken<double> take_number(const TomlNode& node) {
+Taken<double> take_number(const TomlNode& node, std::string_view unit) {
+  if (node.kind == TomlNode::Kind::string && looks_like_quantity(node.text)) {
+    const Quantity quantity = parse_quantity(node.text, unit);
+    return {quantity.value, quantity.mistake};
+  }
   if (node.kind == TomlNode::Kind::string && parse_number(node.text)) {
     return {{}, fmt::format("must be a number, but is the text {} (leave the quotes out)", quoted(node.text))};
   }
@@ -90,8 +95,8 @@ Taken<double> take_number(const TomlNode& node) {
   return {value, ""};
 }
 
-Taken<double> take_number_within(const TomlNode& node, const Range& range) {
-  Taken<double> number = take_number(node);
+Taken<double> take_number_within(const TomlNode& node, const Range& range, std::string_view unit) {
+  Taken<double> number = take_number(node, unit);
   if (number.value && !range.contains(*number.value)) return {{}, fmt::format("= {} is out of range", node.text)};
   return number;
 }
@@ -117,7 +122,7 @@ struct Storing {
       real.member(values) = automatic_number;
       return "";
     }
-    const Taken<double> number = take_number_within(node, real.range);
+    const Taken<double> number = take_number_within(node, real.range, parameter.unit);
     if (!number.value) return number.mistake + allowed() + (has_automatic ? ", or \"auto\"" : "");
     real.member(values) = *number.value;
     return "";
@@ -142,9 +147,9 @@ struct Storing {
     if (node.elements.size() != 2) {
       return fmt::format("must hold two numbers, [x, y], but holds {}", node.elements.size());
     }
-    const Taken<double> x = take_number_within(node.elements[0], vector.range);
+    const Taken<double> x = take_number_within(node.elements[0], vector.range, parameter.unit);
     if (!x.value) return "(x component) " + x.mistake + allowed();
-    const Taken<double> y = take_number_within(node.elements[1], vector.range);
+    const Taken<double> y = take_number_within(node.elements[1], vector.range, parameter.unit);
     if (!y.value) return "(y component) " + y.mistake + allowed();
     vector.x(values) = *x.value;
     vector.y(values) = *y.value;

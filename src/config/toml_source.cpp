@@ -198,7 +198,7 @@ std::string likely_slip(std::string_view line) {
   }
   if (is_digit(0) && value.find(',') != std::string_view::npos) return "the decimal sign is a point: 0.5";
   if (is_digit(0) && value.find(' ') != std::string_view::npos) {
-    return "values carry no unit and stand alone on their line";
+    return "a value with a unit stands in quotes (\"1 mm\"), and every value alone on its line";
   }
   return "";
 }
