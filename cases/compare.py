@@ -5,7 +5,7 @@
     /usr/bin/python3 cases/compare.py --level quick                coarser: a first look
     /usr/bin/python3 cases/compare.py rigid_wall cantilever/L8_U0.8 'free_vibration/rows*'
 
-What is finished is not run again, so it can be interrupted at any time and started anew. The report is in
+What is finished is not run again and what was stopped goes on from its checkpoint, so it can be interrupted at any time. The report is in
 RESULTS/LEVEL/report: report.html by itself, report.md with its pictures, table.md. The exit code is 0 if all runs are there
 and every recorded value is met, 1 if not, 2 if the command makes no sense.
 """

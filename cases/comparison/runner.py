@@ -1,7 +1,8 @@
 """Runs the variants of studies, one after the other or some at a time, and takes up where an earlier attempt stopped.
 
 A run's results stand in RESULTS/LEVEL/STUDY/VARIANT; comparison.json there says of which case file and settings they are.
-A run is taken as it is if it is completed, of the same case and settings, and from the same commit of the program.
+A run is taken as it is if it is completed, of the same case and settings, and from the same commit of the program. One that
+was stopped goes on from its last checkpoint if that is of this commit.
 """
 
 from __future__ import annotations
@@ -103,6 +104,13 @@ def is_finished(job: Job, commit: str | None) -> bool:
             and (commit is None or run.get("git_commit") == commit))
 
 
+def can_go_on(job: Job, commit: str | None) -> bool:
+    """Whether there are checkpoints of this case from this commit of the program, which must be known and without changes."""
+    run, record = read_json(job.results / "run.json"), read_json(job.results / RECORD)
+    return (commit is not None and not commit.endswith("+changes") and run.get("git_commit") == commit
+            and record.get("fingerprint") == job.fingerprint() and any(job.results.glob("checkpoint_*.h5")))
+
+
 def commit_of(program: Path) -> str | None:
     """The commit that the program was built from, as its --version tells it ("+changes" behind it if there were any);
     None if it does not say."""
@@ -142,13 +150,17 @@ class Runner:
         self._lock = threading.Lock()
         self._processes: dict[int, subprocess.Popen[bytes]] = {}
         self._is_stopped = False
+        self._commit_of_program: str | None = None
 
     def run(self, jobs: Sequence[Job]) -> list[Outcome]:
         """Makes what is missing. A failed run is told and does not stop the others.
 
-        An interruption (KeyboardInterrupt) ends the present runs, which begin anew the next time; finished ones stay.
+        An interruption (KeyboardInterrupt) ends the present runs, which write a checkpoint and go on from it the next time;
+        finished ones stay.
         """
         self._is_stopped = False
+        with contextlib.suppress(OSError, subprocess.CalledProcessError):  # each run will tell
+            self._commit_of_program = commit_of(self.program)
         watch = self._watch or Teller(len(jobs), self.say)
         pool = ThreadPoolExecutor(self.parallel)
         futures = [pool.submit(self._run_one, job, watch) for job in jobs]
@@ -192,12 +204,16 @@ class Runner:
 
     def _make(self, job: Job) -> str:
         """Runs it; what went wrong, or nothing."""
-        shutil.rmtree(job.results, ignore_errors=True)
-        job.results.mkdir(parents=True)
+        goes_on = can_go_on(job, self._commit_of_program)
+        cpu_seconds = float(read_json(job.results / RECORD).get("cpu_seconds", 0.0)) if goes_on else 0.0
+        if not goes_on:
+            shutil.rmtree(job.results, ignore_errors=True)
+        job.results.mkdir(parents=True, exist_ok=True)
         record: dict[str, Any] = {"fingerprint": job.fingerprint(), "settings": dict(job.variant.settings)}
         _write_record(job, record)
         log = job.results / "log.txt"
-        code, record["cpu_seconds"] = self._execute(self._command(job), log)
+        code, record["cpu_seconds"] = self._execute(self._command(job) + (["--restart", "auto"] if goes_on else []), log)
+        record["cpu_seconds"] += cpu_seconds
         error = ""
         if code != 0:
             error = f"ended with exit code {code}: {last_words(log.read_text(encoding='utf-8', errors='replace'))} ({log})"

@@ -116,6 +116,24 @@ class Runs(Command):
         self.assertEqual(self.compare().returncode, 0)
         self.assertEqual(self.made(), ["slow"])
 
+    def test_a_stopped_run_goes_on_from_its_checkpoint(self) -> None:
+        self.compare(TOY_STOPS="slow")
+        self.assertEqual(self.made(), ["slow", "fast"])
+        self.assertEqual(self.compare().returncode, 0)
+        self.assertEqual(self.made(), ["slow", "resumed"])
+        self.assertEqual(self.compare().returncode, 0)
+        self.assertEqual(self.made(), [])
+
+    def test_a_stopped_run_of_another_commit_or_case_begins_anew(self) -> None:
+        self.compare(TOY_STOPS="slow")
+        self.made()
+        self.compare(TOY_STOPS="slow", TOY_COMMIT="f" * 40)
+        self.assertEqual(self.made(), ["slow", "fast"])
+        runs = self.study / "runs.toml"
+        runs.write_text(runs.read_text(encoding="utf-8").replace("[runs.slow]\nset = {}", '[runs.slow]\nset = {"time.end" = 2e-3}'), encoding="utf-8")
+        self.compare("toy/slow", TOY_COMMIT="f" * 40)
+        self.assertEqual(self.made(), ["slow"])
+
     def test_of_a_failure_the_programs_own_words_are_told(self) -> None:
         dashes = "-" * 74
         log = f"one\nsphdrop: the drop left\n\n{dashes}\nPrimary job  terminated\n{dashes}\n{dashes}\nExit code: 3\n{dashes}\n"

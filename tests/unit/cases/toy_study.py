@@ -69,7 +69,7 @@ if "--version" in sys.argv:
 settings = dict(word.removeprefix("--set=").split("=", 1) for word in sys.argv[2:] if word.startswith("--set="))
 output = Path(sys.argv[sys.argv.index("--output") + 1])
 with open(os.environ["TOY_LOG"], "a") as log:
-    log.write(output.name + "\\n")
+    log.write(output.name + " resumed" * ("--restart" in sys.argv) + "\\n")
 speed = -json.loads(settings.get("drop.velocity", "[0, -0.5]"))[1]
 end = float(settings.get("time.end", "1e-3"))
 
@@ -79,6 +79,9 @@ output.mkdir(parents=True, exist_ok=True)
 if output.name in os.environ.get("TOY_FAILS", "").split():
     print("the drop is not a number")
     sys.exit(3)
+if output.name in os.environ.get("TOY_STOPS", "").split():
+    (output / "checkpoint_000000000025.h5").write_text("")
+    sys.exit(5)
 if output.name in os.environ.get("TOY_WAITS", "").split():
     (output / "waits").write_text(str(os.getpid()))
     time.sleep(60)
@@ -109,8 +112,8 @@ information.update(status="completed", wall_time_seconds=2.0, state_hash="000000
 
 
 def write_program(path: Path) -> Path:
-    """The stand-in, executable. TOY_LOG names the file that gets a line for each run; TOY_FAILS and TOY_WAITS name runs that
-    end with an error or go on for a minute."""
+    """The stand-in, executable. TOY_LOG names the file that gets a line for each run; TOY_FAILS, TOY_STOPS and TOY_WAITS
+    name runs that end with an error, stop at a checkpoint or go on for a minute."""
     path.write_text(PROGRAM.replace("{python}", sys.executable).replace("{commit}", COMMIT), encoding="utf-8")
     path.chmod(0o755)
     return path
