@@ -30,13 +30,13 @@ command -v sbatch >/dev/null || fail 'there is no sbatch: this takes a computer 
 
 # A Python 3.11 with numpy and h5py.
 python=${SPHDROP_PYTHON:-/usr/bin/python3}
-count=$("$python" jobs/sweep.py count "$table")
+count=$("$python" cases/sphdrop-sweep count "$table")
 mkdir -p "$folder"
 array=$(sbatch --parsable --array="0-$((count - 1))" --output="$folder/sphdrop_%A_%a.log" "$@" \
   jobs/sweep.sbatch "$table" "$case_file" "$folder")
 array=${array%%;*}
 # Last of all, and not for the lack of one run; it says which are missing.
-printf -v collect '%q ' "$python" jobs/sweep.py collect "$table" "$folder"
+printf -v collect '%q ' "$python" cases/sphdrop-sweep collect "$table" "$folder"
 collecting=$(sbatch --parsable "$@" --dependency="afterany:$array" --nodes=1 --ntasks=1 --time=0:10:00 \
   --job-name=sphdrop_collect --output="$folder/collect_%j.log" --wrap "$collect")
 printf 'Submitted %d runs as job %s, and job %s to collect them in %s/sweep.csv\n' \

@@ -20,7 +20,7 @@ import sys
 import threading
 import time
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,11 +31,24 @@ from comparison.study import Study, Variant
 RECORD = "comparison.json"
 
 
+class Cases(Protocol):
+    """What makes runs: a study, or a sweep."""
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def case_file(self) -> Path: ...
+
+    def parameters(self, variant: Variant) -> Mapping[str, Any]:
+        """The case with the variant's settings."""
+
+
 @dataclass(frozen=True)
 class Job:
     """A run to make, and where its results go."""
 
-    study: Study
+    study: Cases
     variant: Variant
     results: Path
 

@@ -125,8 +125,11 @@ class Study:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.name = folder.name
         self._table = self._read_runs()
+
+    @property
+    def name(self) -> str:
+        return self.folder.name
 
     @property
     def case_file(self) -> Path:

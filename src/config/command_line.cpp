@@ -69,6 +69,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   bool version = false;
   bool list_parameters = false;
   bool check = false;
+  bool print_case = false;
   std::string output;
   std::string restart;
   std::string max_walltime;
@@ -80,6 +81,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.add_flag("--version", version, "print version and commit and leave");
   app.add_flag("--list-parameters", list_parameters, "print all parameters of a case and leave");
   app.add_flag("--check", check, "read, check and set up the case, but do not run it");
+  app.add_flag("--print-case", print_case, "print the case with every parameter, in SI units, and leave");
   app.add_option("--set", result.overrides, "use this value instead of the case file's; may be given several times")
       ->option_text("key=value")
       ->allow_extra_args(false);
@@ -117,6 +119,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   }
   if (list_parameters) return finish(list_parameters_text(), 0);
   if (result.case_file.empty()) return usage_mistake("a case file is missing");
+  if (print_case) result.action = CommandLine::Action::print;
   if (check) result.action = CommandLine::Action::check;
   if (output_option->count() > 0) {
     if (output.empty()) return usage_mistake("--output needs the name of a folder");

@@ -10,6 +10,7 @@ namespace sphdrop {
 struct CommandLine {
   enum class Action {
     run,
+    print,    ///< read and check the case and print it with every parameter
     check,    ///< read and check the case, set it up, but take no step
     version,  ///< tell version and commit and leave
     finish    ///< print `text` and leave with `exit_code`: to standard output if that is 0, else to standard error

@@ -11,6 +11,7 @@
 
 #include "config/case_error.hpp"
 #include "config/case_file.hpp"
+#include "config/effective_case.hpp"
 #include "config/parameter_store.hpp"
 #include "config/toml_source.hpp"
 #include "io/output_directory.hpp"
@@ -85,6 +86,10 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   Case& input = parsed.values;
   if (command.output_directory) input.output.directory = *command.output_directory;
   for (const std::string& warning : parsed.warnings) say(communicator, stderr, "warning: " + warning + "\n");
+  if (command.action == CommandLine::Action::print) {
+    say(communicator, stdout, effective_case_text(input));
+    return success;
+  }
   const InitialState initial = build_initial_state(input);
   if (command.action == CommandLine::Action::check) {
     const std::string report = check_case(communicator, input, initial);

@@ -1,4 +1,4 @@
-"""The tables of a sweep and of scaling: what the jobs run, and what is told of the results."""
+"""The tables of scaling: what is told of the results."""
 
 from __future__ import annotations
 
@@ -14,9 +14,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "jobs"))
 import scaling  # noqa: E402
-import sweep  # noqa: E402
-
-CASE = '[solid]\nkind = "{kind}"\n[drop]\nshape = "round"\n'
 
 
 def command(script: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
@@ -34,87 +31,6 @@ class TableTest(unittest.TestCase):
         path = self.folder / "table.csv"
         path.write_text(text, encoding="utf-8")
         return path
-
-
-class SweepTable(TableTest):
-    def test_rows_are_settings(self) -> None:
-        table = self.table('# a comment\n\ndrop.velocity, solid.length\n"[0.0, -0.5]", 8e-3\n"[0.0, -1.0]",12e-3\n')
-        self.assertEqual(command("sweep.py", "count", table).stdout, "2\n")
-        self.assertEqual(command("sweep.py", "settings", table, "1").stdout, "--set=drop.velocity=[0.0, -1.0]\n--set=solid.length=12e-3\n")
-        self.assertEqual(command("sweep.py", "folder", table, "1").stdout, "run_001\n")
-
-    def test_the_shipped_one_names_parameters(self) -> None:
-        rows = sweep.read_table(ROOT / "jobs" / "sweep_table.csv")
-        self.assertEqual(len({(row["drop.velocity"], row["solid.length"]) for row in rows}), 12)
-        parameters = (ROOT / "cases" / "README.md").read_text(encoding="utf-8")
-        for name in rows[0]:
-            self.assertIn(f"`{name}`", parameters)
-
-    def test_mistakes_are_told(self) -> None:
-        for text, words in (
-            ("a.b\n", "needs a header that names parameters, and a row"),
-            ("a.b,a.b\n1,2\n", "names a parameter twice"),
-            ("a.b,c.d\n1,2\n[0, 1],2\n", "run 1 has 3 values for 2 parameters"),
-            ("a.b,c.d\n1,\n", "run 0 has no value of c.d"),
-        ):
-            with self.subTest(text=text):
-                done = command("sweep.py", "count", self.table(text))
-                self.assertEqual(done.returncode, 2)
-                self.assertIn(words, done.stderr)
-        self.assertIn("cannot be read", command("sweep.py", "count", self.folder / "nowhere").stderr)
-        self.assertEqual(command("sweep.py", "cuont").returncode, 2)
-
-
-class CollectedSweep(TableTest):
-    def make_run(self, number: int, kind: str = "cantilever", status: str = "completed") -> None:
-        """A run of 1 ms whose drop is widest, 2 mm, at 0.41 ms, whose beam is deepest, 0.3 mm, at 0.22 ms, and whose drop
-        touches from 0.1 to 0.7 ms, comes at 0.8 m/s and leaves at 0.2 m/s."""
-        folder = self.folder / "results" / sweep.folder_of(number)
-        folder.mkdir(parents=True)
-        details = {"particles": 10, "steps": 20}
-        (folder / "run.json").write_text(json.dumps({"status": status, "state_hash": f"{number:016x}", "ranks": 2, "details": details}))
-        (folder / "case.cfg").write_text(CASE.format(kind=kind))
-        with (folder / "history.csv").open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.writer(stream)
-            writer.writerow(["time [s]", "drop_width [m]", "deflection [m]", "contact_count [1]", "contact_impulse_y [N s/m]",
-                             "drop_velocity_y [m/s]"])
-            for row in range(51):
-                time = row * 2e-5
-                touches = 5 <= row <= 35
-                impulse = min(max(row - 4, 0), 31)
-                writer.writerow([time, 2e-3 - 1e3 * (time - 4.1e-4) ** 2, -3e-4 + 1e3 * (time - 2.2e-4) ** 2, int(touches), impulse,
-                                 -0.8 if row < 5 else 0.2])
-
-    def collected(self, *expected_lines: str, code: int) -> list[dict[str, str]]:
-        done = command("sweep.py", "collect", self.table("solid.length,drop.velocity\n8e-3,\"[0, -1]\"\n9e-3,\"[0, -2]\"\n"),
-                       self.folder / "results")
-        self.assertEqual(done.returncode, code, done.stderr)
-        for line in expected_lines:
-            self.assertIn(line, done.stdout)
-        with (self.folder / "results" / "sweep.csv").open(encoding="utf-8", newline="") as stream:
-            return list(csv.DictReader(stream))
-
-    def test_finished_runs(self) -> None:
-        self.make_run(0)
-        self.make_run(1, kind="rigid_wall")
-        beam, wall = self.collected("2 of 2 runs finished", code=0)
-        self.assertEqual((beam["run"], beam["solid.length"], beam["drop.velocity"]), ("run_000", "8e-3", "[0, -1]"))
-        self.assertEqual((wall["state_hash"], wall["particles"], wall["steps"], wall["ranks"]), (f"{1:016x}", "10", "20", "2"))
-        for row in (beam, wall):
-            self.assertAlmostEqual(float(row["contact_time [s]"]), 6e-4)
-            self.assertAlmostEqual(float(row["largest_width [m]"]), 2e-3)
-            self.assertAlmostEqual(float(row["largest_width_time [s]"]), 4.1e-4)
-            self.assertAlmostEqual(float(row["restitution [1]"]), 0.25)
-        self.assertAlmostEqual(float(beam["largest_deflection [m]"]), 3e-4)
-        self.assertAlmostEqual(float(beam["largest_deflection_time [s]"]), 2.2e-4)
-        self.assertTrue(math.isnan(float(wall["largest_deflection [m]"])))
-
-    def test_missing_and_unfinished_runs_are_told(self) -> None:
-        (self.folder / "results").mkdir()
-        self.make_run(0, status="interrupted: SIGUSR1 came")
-        first, second = self.collected("0 of 2 runs finished", "run_000: interrupted", "run_001: missing", code=1)
-        self.assertEqual((first["status"], first["contact_time [s]"]), ("interrupted: SIGUSR1 came", ""))
-        self.assertEqual((second["status"], second["state_hash"]), ("missing", ""))
 
 
 class ScalingTable(TableTest):

@@ -67,6 +67,11 @@ if "--version" in sys.argv:
     print("sphdrop 0.1.0, commit " + os.environ.get("TOY_COMMIT", "{commit}"))
     sys.exit(0)
 settings = dict(word.removeprefix("--set=").split("=", 1) for word in sys.argv[2:] if word.startswith("--set="))
+if "--print-case" in sys.argv:
+    if "bad" in settings:
+        sys.exit("toy: bad is not a known key")
+    print(Path(sys.argv[1]).read_text())
+    sys.exit(0)
 output = Path(sys.argv[sys.argv.index("--output") + 1])
 with open(os.environ["TOY_LOG"], "a") as log:
     log.write(output.name + " resumed" * ("--restart" in sys.argv) + "\\n")

@@ -66,13 +66,14 @@ TEST(CommandLineTest, HandsValuesOnUnchanged) {
 
 TEST(CommandLineTest, Checks) {
   EXPECT_EQ(parse({"--check", "case.cfg"}).action, Action::check);
+  EXPECT_EQ(parse({"--print-case", "case.cfg"}).action, Action::print);
 }
 
 TEST(CommandLineTest, AnswersQuestionsWithoutACase) {
   const CommandLine help = parse({"--help"});
   EXPECT_EQ(help.action, Action::finish);
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* option : {"--help", "--version", "--list-parameters", "--check", "--set", "--output", "--until",
+  for (const char* option : {"--help", "--version", "--list-parameters", "--check", "--print-case", "--set", "--output", "--until",
                              "--quiet", "--restart", "--fresh", "--max-walltime", "case.cfg"}) {
     EXPECT_NE(help.text.find(option), std::string::npos) << option;
   }
