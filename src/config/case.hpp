@@ -6,11 +6,14 @@
 
 namespace sphdrop {
 
-enum class Mode { paper };
+enum class Mode { paper, modern };
 enum class DropShape { none, round, square };
 enum class DropArrangement { rings, lattice };
 enum class DropMaterial { liquid, rigid };
 enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall };
+enum class SolidFormulation { automatic, hypoelastic, cells };
+enum class MaterialLaw { st_venant_kirchhoff, neo_hookean };
+enum class Clamp { strips, ideal };
 enum class DeviatoricTrace { plane_strain, two_dimensional };
 enum class SurfaceTensionForm { none, conservative, curvature };
 
@@ -20,7 +23,7 @@ enum class SurfaceTensionForm { none, conservative, curvature };
 /// A default-constructed Case is all zeros and no valid case; parse_case_text (config/case_file.hpp) makes valid ones.
 struct Case {
   std::string name;         ///< of the run's files; a single file name
-  Mode mode = Mode::paper;  ///< method.md's scheme as printed, completed where the print is silent
+  Mode mode = Mode::paper;  ///< which scheme the automatic parameters choose
 
   struct Resolution {
     double spacing = 0;          ///< d, m
@@ -75,13 +78,18 @@ struct Case {
     double density = 0;                                                ///< kg/m3
     double youngs_modulus = 0;                                         ///< E, Pa
     double poisson_ratio = 0;                                          ///< nu
+    SolidFormulation formulation = SolidFormulation::automatic;        ///< never automatic in a validated case
+    MaterialLaw material_law = MaterialLaw::st_venant_kirchhoff;       ///< of cells
     DeviatoricTrace deviatoric_trace = DeviatoricTrace::plane_strain;  ///< k = 1/3 or 1/2
     double artificial_viscosity_alpha = 0;
     double artificial_viscosity_beta = 0;
     double artificial_stress_coefficient = 0;  ///< eps, Eq 20
-    double clamp_length = 0;                   ///< m
+    Clamp clamp = Clamp::strips;
+    double clamp_length = 0;  ///< m
     std::int64_t clamp_layers = 0;
-    double damping_rate = 0;          ///< 1/s, in proportion to mass: a = -damping_rate v
+    double damping_rate = 0;   ///< 1/s, in proportion to mass: a = -damping_rate v
+    double damping_ratio = 0;  ///< of critical damping in the first bending mode; as much damping in proportion to mass
+    double viscous_time = 0;   ///< s, in proportion to stiffness: stress by strain rate over stress by strain
     double initial_tip_velocity = 0;  ///< m/s, along +y (up); of the cantilever's first bending mode
     bool operator==(const Solid&) const = default;
   } solid;

@@ -131,7 +131,7 @@ Verdict length_not_whole(const Case& values) {
 
 // A strip thinner than the kernel's support would let the beam's particles see past it.
 Verdict clamp_thinner_than_support(const Case& values) {
-  if (!has_beam(values)) return {};
+  if (!has_beam(values) || values.solid.clamp == Clamp::ideal) return {};
   const double support = 2 * values.resolution.smoothing_ratio;  // in spacings
   if (static_cast<double>(values.solid.clamp_layers) < support * (1 - whole_number_tolerance)) {
     return fmt::format("solid.clamp_layers = {} is thinner than the kernel's support of {} spacings; take at least {}",
@@ -158,10 +158,21 @@ Verdict tip_velocity_of_another_solid(const Case& values) {
 }
 
 Verdict damping_of_another_solid(const Case& values) {
-  if (values.solid.damping_rate == 0 || has_beam(values)) return {};
-  return "solid.damping_rate needs a beam (solid.kind = \"cantilever\" or \"fixed_fixed_beam\"): nothing else is "
-         "damped "
-         "by it; set it to 0";
+  if ((values.solid.damping_rate == 0 && values.solid.damping_ratio == 0 && values.solid.viscous_time == 0) ||
+      has_beam(values))
+    return {};
+  const char* key = values.solid.damping_rate > 0    ? "solid.damping_rate"
+                    : values.solid.damping_ratio > 0 ? "solid.damping_ratio"
+                                                     : "solid.viscous_time";
+  return key + std::string(
+                   " needs a beam (solid.kind = \"cantilever\" or \"fixed_fixed_beam\"): nothing else is damped by "
+                   "it; set it to 0");
+}
+
+Verdict viscosity_of_another_formulation(const Case& values) {
+  if (values.solid.viscous_time == 0 || values.solid.formulation != SolidFormulation::hypoelastic) return {};
+  return "solid.viscous_time needs solid.formulation = \"cells\": the hypoelastic solid has "
+         "solid.artificial_viscosity_alpha instead; set it to 0 or take cells";
 }
 
 // Far beyond any use: a velocity would change its sign from step to step.
@@ -223,11 +234,12 @@ const std::vector<Check>& contradiction_checks() {
       {{"solid.length", "solid.kind"}, beam_without_length},
       {{"solid.thickness", "resolution.spacing", "solid.kind"}, rows_not_whole},
       {{"solid.length", "resolution.spacing", "solid.kind"}, length_not_whole},
-      {{"solid.clamp_layers", "resolution.smoothing_ratio", "solid.kind"}, clamp_thinner_than_support},
+      {{"solid.clamp_layers", "resolution.smoothing_ratio", "solid.kind", "solid.clamp"}, clamp_thinner_than_support},
       {{"solid.clamp_length", "resolution.smoothing_ratio", "resolution.spacing", "solid.kind", "solid.thickness"},
        clamp_shorter_than_support},
       {{"solid.initial_tip_velocity", "solid.kind"}, tip_velocity_of_another_solid},
-      {{"solid.damping_rate", "solid.kind"}, damping_of_another_solid},
+      {{"solid.damping_rate", "solid.damping_ratio", "solid.viscous_time", "solid.kind"}, damping_of_another_solid},
+      {{"solid.viscous_time", "solid.formulation"}, viscosity_of_another_formulation},
       {{"solid.damping_rate", "resolution.spacing", "solid.youngs_modulus", "solid.poisson_ratio", "solid.density",
         "resolution.smoothing_ratio", "fluid.sound_speed", "fluid.density", "fluid.viscosity", "drop.diameter",
         "surface_tension.coefficient", "gravity.acceleration", "time.end"},

@@ -13,6 +13,12 @@ double speed(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
 
+// c_s = sqrt(K/rho).
+double beam_sound_speed(const Case& values) {
+  const double bulk_modulus = values.solid.youngs_modulus / (3 * (1 - 2 * values.solid.poisson_ratio));
+  return std::sqrt(bulk_modulus / values.solid.density);
+}
+
 // Where the paper lets the drop fall: above the free end of a cantilever with its rim over the tip (method.md, 7), else
 // above the middle.
 double default_centre(const Case& values) {
@@ -46,6 +52,13 @@ double default_domain_margin(const Case& values) {
   return (is_held ? std::min(flight, 2 * values.solid.length) : flight) + body;
 }
 
+// The largest that stay stable, with something to spare: cells stand 0.5 by their own c_s, a liquid 0.3 by its c_f.
+double default_sound_cfl(const Case& values) {
+  if (values.mode == Mode::paper) return 0.1;
+  const bool beam_limits = has_beam(values) && beam_sound_speed(values) >= 1.4 * values.fluid.sound_speed;
+  return beam_limits || !values.drop.is_liquid() ? 0.4 : 0.25;
+}
+
 void fill(double& value, double automatic) {
   if (std::isnan(value)) value = automatic;
 }
@@ -77,8 +90,7 @@ double expected_speed(const Case& values) {
 double largest_sound_speed(const Case& values) {
   if (!has_beam(values)) return has_drop(values) ? values.fluid.sound_speed : 0;
   const double liquid = values.drop.is_liquid() ? values.fluid.sound_speed : 0;
-  const double bulk_modulus = values.solid.youngs_modulus / (3 * (1 - 2 * values.solid.poisson_ratio));
-  return std::max(liquid, std::sqrt(bulk_modulus / values.solid.density));
+  return std::max(liquid, beam_sound_speed(values));
 }
 
 StepBound largest_step(const Case& values) {
@@ -102,8 +114,12 @@ void fill_derived_defaults(Case& values, const std::string& source_name) {
   if (values.name.empty()) values.name = std::filesystem::path(source_name).stem().string();
   if (values.output.directory.empty()) values.output.directory = "results/" + values.name;
 
+  if (values.solid.formulation == SolidFormulation::automatic)
+    values.solid.formulation = values.mode == Mode::modern ? SolidFormulation::cells : SolidFormulation::hypoelastic;
+
   const double d = values.resolution.spacing;
   fill(values.time.step, 0);
+  fill(values.time.sound_cfl, default_sound_cfl(values));
   fill(values.drop.density, values.fluid.density);
   fill(values.drop.gap, std::max(0.0, values.contact.distance_ratio - 1) * d + 0.1 * d);
   if (std::isnan(values.solid.length) && !has_beam(values)) {

@@ -9,6 +9,10 @@
 namespace sphdrop {
 namespace {
 
+bool is_hypoelastic(const Case& values) {
+  return has_beam(values) && values.solid.formulation == SolidFormulation::hypoelastic;
+}
+
 Verdict few_rows(const Case& values) {
   const double rows = std::round(rows_across(values));
   if (!has_beam(values) || rows >= 4) return {};
@@ -17,7 +21,7 @@ Verdict few_rows(const Case& values) {
 
 Verdict odd_rows(const Case& values) {
   const double rows = std::round(rows_across(values));
-  if (!has_beam(values) || std::fmod(rows, 2) == 0) return {};
+  if (!is_hypoelastic(values) || std::fmod(rows, 2) == 0) return {};
   return fmt::format(
       "the beam has {} rows, an odd number: it will be 2 to 3 times too stiff. Even ones are {} rows "
       "(resolution.spacing = {:.10g} m) and {} rows ({:.10g} m)",
@@ -29,13 +33,21 @@ Verdict odd_rows(const Case& values) {
 Verdict unstable_artificial_stress(const Case& values) {
   const double ratio = values.resolution.smoothing_ratio;
   const double eps = values.solid.artificial_stress_coefficient;
-  if (!has_beam(values)) return {};
+  if (!is_hypoelastic(values)) return {};
   const double limit = ratio <= 1.1 ? 0.5 : (ratio < 1.3 ? 0.25 : 0.05);
   if (ratio <= 1.1 ? eps <= limit : eps < limit) return {};
   return fmt::format(
       "solid.artificial_stress_coefficient = {} is unstable at h = {} d: a zigzag of the beam's particles "
       "grows. Take 0.2 or less at h = 1.2 d, or resolution.smoothing_ratio <= 1.1",
       eps, ratio);
+}
+
+// method.md, 4: cells are stable to 0.55 on h/c_s.
+Verdict long_step_of_cells(const Case& values) {
+  if (!has_beam(values) || is_hypoelastic(values) || values.time.step > 0 || values.time.sound_cfl <= 0.5) return {};
+  return fmt::format(
+      "time.sound_cfl = {} is more than a beam of cells stands where its sound sets the step; take 0.5 or less",
+      values.time.sound_cfl);
 }
 
 Verdict slow_sound(const Case& values) {
@@ -72,6 +84,7 @@ const std::vector<Check>& doubt_checks() {
       {{"resolution.spacing", "solid.thickness"}, odd_rows},
       {{"solid.length", "solid.thickness"}, stubby_beam},
       {{"solid.artificial_stress_coefficient", "resolution.smoothing_ratio"}, unstable_artificial_stress},
+      {{"time.sound_cfl", "solid.formulation", "time.step"}, long_step_of_cells},
       {{"fluid.sound_speed", "drop.velocity", "drop.oscillation_velocity", "gravity.acceleration"}, slow_sound},
       {{"fluid.artificial_viscosity_alpha"}, inviscid},
       {{"fluid.density_correction_interval"}, uncorrected_density},

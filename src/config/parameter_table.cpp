@@ -45,11 +45,14 @@ constexpr Range either_sign(double bound) {
 }
 
 // The words of each enumeration, in the order of its enumerators (config/case.hpp).
-constexpr std::string_view mode_words[] = {"paper"};
+constexpr std::string_view mode_words[] = {"paper", "modern"};
 constexpr std::string_view shape_words[] = {"none", "round", "square"};
 constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
 constexpr std::string_view material_words[] = {"liquid", "rigid"};
 constexpr std::string_view solid_words[] = {"none", "cantilever", "fixed_fixed_beam", "rigid_wall"};
+constexpr std::string_view formulation_words[] = {"auto", "hypoelastic", "cells"};
+constexpr std::string_view law_words[] = {"st_venant_kirchhoff", "neo_hookean"};
+constexpr std::string_view clamp_words[] = {"strips", "ideal"};
 constexpr std::string_view trace_words[] = {"plane_strain", "two_dimensional"};
 constexpr std::string_view form_words[] = {"none", "conservative", "curvature"};
 
@@ -72,7 +75,8 @@ constexpr Parameter table[] = {
     {"mode", "", "-",
      WordParameter{mode_words, [](const C& c) { return static_cast<std::size_t>(c.mode); },
                    [](C& c, std::size_t position) { c.mode = static_cast<Mode>(position); }, 0},
-     "scheme: paper = as printed, completed where the print is silent"},
+     "scheme that \"auto\" values choose: paper = as printed, completed where the print is silent; modern = what works "
+     "better"},
 
     {"resolution.spacing", "d_ini", "m",
      real<&C::resolution, &C::Resolution::spacing>(Required{}, positive(largest_length)),
@@ -86,7 +90,12 @@ constexpr Parameter table[] = {
     {"time.step", "dt", "s",
      real<&C::time, &C::Time::step>(Automatic{"0: Eqs 40-42, every step"}, non_negative(largest_time)),
      "fixed time step; 0 = the smallest of Eqs 40-42"},
-    {"time.sound_cfl", "", "-", real<&C::time, &C::Time::sound_cfl>(0.1, positive(1)), "factor of Eq 40 (sound)"},
+    {"time.sound_cfl", "", "-",
+     real<&C::time, &C::Time::sound_cfl>(
+         Automatic{
+             "0.1; mode modern: 0.4 where a beam's sound is at least 1.4 times as fast as the liquid's, else 0.25"},
+         positive(1)),
+     "factor of Eq 40 (sound)"},
     {"time.capillary_cfl", "", "-", real<&C::time, &C::Time::capillary_cfl>(0.1, positive(1)),
      "factor of Eq 41 (capillary waves)"},
     {"time.viscous_cfl", "", "-", real<&C::time, &C::Time::viscous_cfl>(0.1, positive(1)),
@@ -156,26 +165,46 @@ constexpr Parameter table[] = {
      "the beam's Young's modulus"},
     {"solid.poisson_ratio", "nu", "-", real<&C::solid, &C::Solid::poisson_ratio>(0.3, {-1, false, 0.5, false}),
      "the beam's Poisson's ratio"},
+    {"solid.formulation", "", "-",
+     word<&C::solid, &C::Solid::formulation>(formulation_words, SolidFormulation::automatic),
+     "how the beam's stress is computed: hypoelastic = the paper's (Eqs 6-9, 14-23), cells = bilinear cells on the "
+     "same "
+     "particles; auto = hypoelastic, in mode modern cells"},
+    {"solid.material_law", "", "-",
+     word<&C::solid, &C::Solid::material_law>(law_words, MaterialLaw::st_venant_kirchhoff),
+     "elastic law of a beam of cells, in plane strain"},
     {"solid.deviatoric_trace", "", "-",
      word<&C::solid, &C::Solid::deviatoric_trace>(trace_words, DeviatoricTrace::plane_strain),
-     "share of tr(e) taken off in Eq 6: plane_strain = 1/3, two_dimensional = 1/2"},
+     "share of tr(e) taken off in Eq 6, hypoelastic only: plane_strain = 1/3, two_dimensional = 1/2"},
     {"solid.artificial_viscosity_alpha", "alpha", "-",
      real<&C::solid, &C::Solid::artificial_viscosity_alpha>(2.0, non_negative(100)),
-     "linear artificial viscosity of the beam (Eq 17)"},
+     "linear artificial viscosity of a hypoelastic beam (Eq 17)"},
     {"solid.artificial_viscosity_beta", "beta", "-",
      real<&C::solid, &C::Solid::artificial_viscosity_beta>(0.0, non_negative(100)),
-     "quadratic artificial viscosity of the beam (Eq 17)"},
+     "quadratic artificial viscosity of a hypoelastic beam (Eq 17)"},
     {"solid.artificial_stress_coefficient", "eps", "-",
      real<&C::solid, &C::Solid::artificial_stress_coefficient>(0.2, non_negative(1)),
-     "artificial stress (Eq 20); the paper's 0.5 is unstable at h = 1.2 d"},
+     "artificial stress of a hypoelastic beam (Eq 20); the paper's 0.5 is unstable at h = 1.2 d"},
+    {"solid.clamp", "", "-", word<&C::solid, &C::Solid::clamp>(clamp_words, Clamp::strips),
+     "strips = the beam's end is free to move between two strips of held particles, as in the paper; ideal = its "
+     "particles in the clamp are held themselves"},
     {"solid.clamp_length", "", "m",
      real<&C::solid, &C::Solid::clamp_length>(Automatic{"2 thicknesses"}, positive(2 * largest_length)),
-     "length of a clamp's strips"},
+     "length of the beam in a clamp, and of the clamp's strips"},
     {"solid.clamp_layers", "", "-", integer<&C::solid, &C::Solid::clamp_layers>(3, 1, 1000),
-     "particles across a clamp's strip"},
+     "particles across a clamp's strip; an ideal clamp has none"},
     {"solid.damping_rate", "", "1/s", real<&C::solid, &C::Solid::damping_rate>(0.0, non_negative(1e6)),
      "mass-proportional damping of the beam, a = -damping_rate v, to bring it to rest: of a mode of angular frequency "
      "omega the damping ratio is damping_rate/(2 omega), so that 2 omega is critical; 0 = none"},
+    {"solid.damping_ratio", "", "-", real<&C::solid, &C::Solid::damping_ratio>(0.0, non_negative(10)),
+     "damping of the beam's first bending mode, of critical, by as much more mass-proportional damping: 2 "
+     "damping_ratio "
+     "omega with omega of beam theory"},
+    {"solid.viscous_time", "", "s", real<&C::solid, &C::Solid::viscous_time>(0.0, non_negative(1)),
+     "stiffness-proportional damping of a beam of cells (Kelvin and Voigt): viscous stress = viscous_time x the "
+     "elastic "
+     "stress of the strain rate; of a mode of angular frequency omega the damping ratio is viscous_time omega/2; it "
+     "shortens the time step"},
     {"solid.initial_tip_velocity", "", "m/s",
      real<&C::solid, &C::Solid::initial_tip_velocity>(0.0, either_sign(largest_speed)),
      "speed of a cantilever's tip in its first bending mode at the start; upwards is positive"},

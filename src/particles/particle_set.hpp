@@ -1,6 +1,7 @@
 #pragma once
 // What all sets of particles have in common: ids, rows, and the list of their declared quantities.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -65,6 +66,10 @@ struct VectorField : Field {
   void set(std::size_t row, Vector v) {
     columns[0][row] = v.x;
     columns[1][row] = v.y;
+  }
+  /// All rows of a field of the same set.
+  void take(const VectorField& other) {
+    for (std::size_t c = 0; c < 2; ++c) std::copy(other.columns[c].begin(), other.columns[c].end(), columns[c].begin());
   }
 };
 

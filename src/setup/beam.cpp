@@ -48,10 +48,10 @@ struct BeamLattice {
   }
 };
 
-void append_particles(const BeamLattice& lattice, double mass, InitialSolid& solid) {
+void append_particles(const BeamLattice& lattice, double mass, Clamp clamp, InitialSolid& solid) {
   for (int column = 0; column < lattice.columns(); ++column) {
     for (int row = lattice.lowest_row(column); row <= lattice.highest_row(column); ++row) {
-      const bool is_fixed = row < 0 || row >= lattice.rows;
+      const bool is_fixed = row < 0 || row >= lattice.rows || (clamp == Clamp::ideal && lattice.is_clamped(column));
       solid.positions.push_back(lattice.position(column, row));
       solid.velocities.push_back({});
       solid.masses.push_back(mass);
@@ -144,7 +144,7 @@ InitialSolid build_beam(const Case::Solid& solid, double spacing) {
                             whole_number_of_spacings(solid.length, spacing, "length"),
                             is_cantilever ? 0 : clamp_columns,
                             whole_number_of_spacings(solid.thickness, spacing, "thickness"),
-                            static_cast<int>(solid.clamp_layers),
+                            solid.clamp == Clamp::ideal ? 0 : static_cast<int>(solid.clamp_layers),
                             spacing};
   if (lattice.rows < 2)
     throw SetupError(
@@ -153,7 +153,7 @@ InitialSolid build_beam(const Case::Solid& solid, double spacing) {
                     solid.thickness, solid.thickness / 4));
 
   InitialSolid initial;
-  append_particles(lattice, solid.density * spacing * spacing, initial);
+  append_particles(lattice, solid.density * spacing * spacing, solid.clamp, initial);
   initial.top = lattice.rows * spacing;
   initial.middle_probe = columns_of_rows(lattice, lattice.left_clamp_columns + (lattice.free_columns - 1) / 2,
                                          lattice.left_clamp_columns + lattice.free_columns / 2);

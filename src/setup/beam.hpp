@@ -8,7 +8,8 @@ namespace sphdrop {
 
 /// A beam on the square lattice of `spacing` d (m): free part x in [0, L], 0 <= y <= H, particles at cell centres. The
 /// beam goes on into the clamp, x in [-clamp_length, 0], where it is free to move between two strips of `clamp_layers`
-/// fixed rows, one below it and one above. With fixed_fixed_beam the same clamp follows beyond x = L.
+/// fixed rows, one below it and one above; in an ideal clamp it is itself fixed, and there are no strips. With
+/// fixed_fixed_beam the same clamp follows beyond x = L.
 ///
 /// The boundary runs along the strips' outer and free faces and the free surface of the beam; it is open behind the
 /// clamps. Cantilever: one polyline, over the top to the free end and back along the underside, probe: the last column.

@@ -110,9 +110,9 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
                           1e3 * (is_cantilever ? cantilever_depth_under_weight(beam, -c.gravity.y)
                                                : fixed_fixed_depth_under_weight(beam, -c.gravity.y)),
                           is_cantilever ? "the free end" : "mid-span");
-    if (c.solid.damping_rate > 0)
+    if (simulation.parameters().damping_rate > 0)
       text += fmt::format("damping of the beam {:.4g} of critical in its first mode\n",
-                          damping_ratio(c.solid.damping_rate, omega));
+                          damping_ratio(simulation.parameters().damping_rate, omega));
     if (is_cantilever && c.drop.shape == DropShape::round && c.drop.velocity_y < 0) {
       const double depth =
           cantilever_largest_deflection(beam, round_drop_mass(c.drop.density, c.drop.diameter), -c.drop.velocity_y);

@@ -17,29 +17,34 @@ struct Loads {
   std::int32_t drop, solid;
 };
 constexpr Loads loads_with_liquid{2, 3}, loads_with_rigid_drop{1, 20};
+// Cells are far cheaper.
+constexpr Loads cells_with_liquid{8, 1}, cells_with_rigid_drop{1, 2};
 
 }  // namespace
 
 Distribution::Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
-                           bool drop_is_rigid)
+                           bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach)
     : communicator_(communicator),
       range_(range),
       drop_is_rigid_(drop_is_rigid),
+      solid_is_total_lagrangian_(solid_is_total_lagrangian),
+      solid_reach_(solid_reach),
       partition_(communicator, range.list_reach(), imbalance_threshold) {}
 
 void Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bool force) {
   std::vector<double> x, y;
   std::vector<std::int32_t> load;
-  const auto collect = [&](const auto& set, std::int32_t cost) {
+  const auto collect = [&](const ParticleSet& set, const VectorField& place, std::int32_t cost) {
     set.for_each_owned([&](std::size_t row) {
-      x.push_back(set.position.x[row]);
-      y.push_back(set.position.y[row]);
+      x.push_back(place.x[row]);
+      y.push_back(place.y[row]);
       load.push_back(cost);
     });
   };
-  const Loads loads = drop_is_rigid_ ? loads_with_rigid_drop : loads_with_liquid;
-  collect(fluid, loads.drop);
-  collect(solid, loads.solid);
+  const Loads loads = solid_is_total_lagrangian_ ? (drop_is_rigid_ ? cells_with_rigid_drop : cells_with_liquid)
+                                                 : (drop_is_rigid_ ? loads_with_rigid_drop : loads_with_liquid);
+  collect(fluid, fluid.position, loads.drop);
+  collect(solid, solid_is_total_lagrangian_ ? solid.reference_position : solid.position, loads.solid);
   partition_.update(x, y, load, force);
 
   std::vector<int> destination(x.size());
@@ -90,9 +95,11 @@ void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
 }
 
 void Distribution::make_solid_ghosts(SolidParticles& solid) {
-  solid_halo_ = make_halo(communicator_, solid, solid.position, partition_, range_.list_reach(), tags::solid_halo);
+  VectorField& place = solid_is_total_lagrangian_ ? solid.reference_position : solid.position;
+  solid_halo_ = make_halo(communicator_, solid, place, partition_, solid_reach_, tags::solid_halo);
   sort_by_id(solid, solid_halo_);
-  solid_ = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, range_.list_reach());
+  if (!solid_is_total_lagrangian_)
+    solid_ = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, solid_reach_);
   std::copy(solid.position.x.begin(), solid.position.x.end(), solid.list_position.x.begin());
   std::copy(solid.position.y.begin(), solid.position.y.end(), solid.list_position.y.begin());
 }

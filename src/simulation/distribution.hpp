@@ -29,9 +29,11 @@ struct InteractionRange {
 /// The particles' distribution over ranks, remade by redistribute() and used by every step in between.
 class Distribution {
  public:
-  /// The particles of a drop that is rigid have no neighbours and no ghosts.
+  /// The particles of a drop that is rigid have no neighbours and no ghosts. A solid that is total-Lagrangian is dealt
+  /// out by its places in the undeformed body: its particles stay where they are while it moves, and its ghosts are
+  /// those within `solid_reach`, m.
   Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
-               bool drop_is_rigid);
+               bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach);
 
   /// Collective. Moves every particle to the rank that owns its place (repartitioning if the loads ask for it, or
   /// `force`), makes ghosts of what other ranks hold within reach, and lists the neighbours. Needs the state columns of
@@ -56,7 +58,8 @@ class Distribution {
 
   const Communicator& communicator_;
   InteractionRange range_;
-  bool drop_is_rigid_;
+  bool drop_is_rigid_, solid_is_total_lagrangian_;
+  double solid_reach_;
   DomainPartition partition_;
   ExchangePlan fluid_halo_, solid_halo_, wide_halo_;
   SlicedNeighbours inner_fluid_, border_fluid_;

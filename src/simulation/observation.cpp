@@ -72,9 +72,6 @@ void add_fluid(const Simulation& simulation, Sums& sums) {
 
 void add_solid(const Simulation& simulation, Sums& sums) {
   const SolidParticles& s = simulation.solid();
-  const Case& c = simulation.input();
-  const ElasticMaterial& material = simulation.parameters().solid.material;
-  const bool plane_strain = c.solid.deviatoric_trace == DeviatoricTrace::plane_strain;
   const auto is_among = [](const std::vector<std::int64_t>& probe, std::int64_t id) {
     return std::binary_search(probe.begin(), probe.end(), id);
   };
@@ -89,11 +86,6 @@ void add_solid(const Simulation& simulation, Sums& sums) {
     sums[solid_momentum_y].add(m * v.y);
     sums[solid_spin].add(m * cross(x, v));
     sums[solid_kinetic].add(kinetic_energy(m, v));
-    const double xx = s.deviatoric_stress.xx[row], yy = s.deviatoric_stress.yy[row], xy = s.deviatoric_stress.xy[row];
-    const DeviatoricStress tau =
-        plane_strain ? plane_strain_deviator(xx, yy, xy) : two_dimensional_deviator(xx, yy, xy);
-    sums[solid_elastic].add(m / s.density[row] * distortion_energy_density(tau, material.shear_modulus()) +
-                            m * compressive_energy_per_mass(s.density[row], material.density, material.sound_speed()));
     sums[solid_heat].add(s.dissipated_energy[row]);
     sums[solid_artificial].add(s.artificial_stress_work[row]);
     const Vector displacement = x - s.reference_position.at(row);
@@ -103,6 +95,7 @@ void add_solid(const Simulation& simulation, Sums& sums) {
     }
     if (is_among(simulation.middle_probe(), s.id[row])) sums[middle_probe_deflection].add(displacement.y);
   });
+  simulation.solid_step().add_elastic_energy(s, sums[solid_elastic]);
 }
 
 struct Extent {
@@ -252,7 +245,8 @@ Observation observe(const Simulation& simulation, double initial_total) {
   return o;
 }
 
-std::uint64_t state_hash(const Simulation& simulation) {
+std::uint64_t state_hash(Simulation& simulation) {
+  simulation.complete_solid();
   std::uint64_t hash = 0;
   const FluidParticles& f = simulation.fluid();
   f.for_each_owned([&](std::size_t row) {

@@ -32,9 +32,9 @@ struct Observation {
 /// observation, from which `unaccounted` counts.
 Observation observe(const Simulation& simulation, double initial_total);
 
-/// The 64-bit hash over id, position, velocity, density and stress of every particle at the present instant;
-/// collective.
-std::uint64_t state_hash(const Simulation& simulation);
+/// The 64-bit hash over id, position, velocity, density and stress of every particle at the present instant, to which
+/// it brings them all; collective, between evaluate() and move().
+std::uint64_t state_hash(Simulation& simulation);
 
 struct ObservedQuantity {
   std::string_view name, unit, description;

@@ -193,7 +193,7 @@ std::optional<double> Recorder::ringing_period() const {
 }
 
 void Recorder::write_snapshot() {
-  hash_ = state_hash(simulation_);
+  hash_ = state_hash(simulation_);  // which completes what is written
   const SnapshotTable table(simulation_.fluid(), simulation_.solid());
   const SnapshotHeader header{simulation_.time(), simulation_.step(), hash_, simulation_.input().name,
                               options_.version};

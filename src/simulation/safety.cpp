@@ -47,6 +47,7 @@ void Simulation::check_safety(double failure) {
 }
 
 void Simulation::stop_with_diagnosis() {
+  stop_where_inverted();
   std::vector<Suspect> mine;
   find_suspects(fluid_, case_.safety.speed_limit, drop_of(case_), mine);
   find_suspects(solid_, case_.safety.speed_limit, Body::solid, mine);
@@ -85,6 +86,29 @@ void Simulation::stop_with_diagnosis() {
                   "that it is harmless.",
                   step_, time_, deepest[1], case_.contact.overlap_limit,
                   all.empty() ? fmt::format("particle {}", id) : describe(all[0])));
+}
+
+void Simulation::stop_where_inverted() {
+  struct Inverted {
+    std::int64_t id;
+    double determinant, x, y;
+  };
+  std::vector<Inverted> mine;
+  if (const auto found = solid_step_->inversion(solid_)) {
+    const auto row =
+        static_cast<std::size_t>(std::lower_bound(solid_.id.begin(), solid_.id.end(), found->id) - solid_.id.begin());
+    const Vector p = solid_.reference_position.at(row);
+    mine.push_back({found->id, found->determinant, p.x, p.y});
+  }
+  const std::vector<Inverted> all = communicator_.all_gather(std::span<const Inverted>(mine));
+  if (all.empty()) return;
+  const Inverted& first =
+      *std::min_element(all.begin(), all.end(), [](const Inverted& a, const Inverted& b) { return a.id < b.id; });
+  throw SafetyError(fmt::format(
+      "step {}, t = {:.6g} s: the solid is turned inside out at particle {}, from ({:.6g}, {:.6g}) m in the "
+      "undeformed body: its area there is {:.4g} of what it was. Try a smaller time.step or CFL number, a "
+      "finer resolution.spacing, or solid.material_law = \"neo_hookean\", which withstands compression.",
+      step_, time_, first.id, first.x, first.y, first.determinant));
 }
 
 void Simulation::check_nothing_is_lost() {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "diagnostics/energy.hpp"
+#include "diagnostics/theory.hpp"
 #include "fluid/density_correction.hpp"
 #include "simulation/particle_transport.hpp"
 #include "solid/mass_proportional_damping.hpp"
@@ -23,6 +24,7 @@ namespace {
 enum Maximum : std::size_t {
   squared_speed,
   squared_displacement,
+  squared_solid_displacement,  // only of a solid that is dealt out by its undeformed body
   squared_detection_displacement,
   failure,
   requested,
@@ -68,6 +70,15 @@ DerivedParameters::DerivedParameters(const Case& c)
   const bool has_tension = c.drop.is_liquid() && c.surface_tension.form != SurfaceTensionForm::none;
   time_step.surface_tension = has_tension ? c.surface_tension.coefficient : 0.0;
   time_step.viscosity = c.drop.is_liquid() ? c.fluid.viscosity : 0.0;
+  time_step.viscous_time = is_elastic ? c.solid.viscous_time : 0.0;
+  damping_rate = c.solid.damping_rate;
+  if (is_elastic && c.solid.damping_ratio > 0) {
+    const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
+                              c.solid.thickness};
+    damping_rate += 2.0 * c.solid.damping_ratio *
+                    (c.solid.kind == SolidKind::cantilever ? cantilever_angular_frequency(beam)
+                                                           : fixed_fixed_angular_frequency(beam));
+  }
 }
 
 Simulation::Simulation(const Communicator& communicator, const Case& input, const InitialFluid& initial_fluid,
@@ -75,15 +86,18 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
     : communicator_(communicator),
       case_(input),
       parameters_(input),
-      distribution_(communicator, parameters_.range, input.parallel.imbalance_threshold, input.drop.is_rigid()),
+      solid_step_(make_solid_step(input, parameters_.solid, initial_solid,
+                                  static_cast<std::int64_t>(initial_fluid.positions.size()))),
+      distribution_(communicator, parameters_.range, input.parallel.imbalance_threshold, input.drop.is_rigid(),
+                    solid_step_->is_total_lagrangian(),
+                    solid_step_->is_total_lagrangian() ? solid_step_->reach() : parameters_.range.list_reach()),
       fluid_sweep_(parameters_.fluid_pair),
-      solid_sweep_(parameters_.solid),
       surface_tension_(communicator, input, parameters_.kernel),
       contact_(communicator, input, global_polylines(initial_solid, initial_fluid.positions.size())),
       rigid_body_(input, initial_fluid),
       maxima_(communicator) {
   fluid_ghosted_ = fluid_.columns_with(Role::ghosted);
-  solid_ghosted_ = solid_.columns_with(Role::ghosted);
+  solid_ghosted_ = solid_step_->ghosted(solid_);
   correction_ghosted_ = {&fluid_.position.x, &fluid_.position.y, &fluid_.density.columns[0]};
   take_initial_state(initial_fluid, initial_solid);
   if (rigid_body_.is_enabled()) rigid_body_.take_places(fluid_);
@@ -209,14 +223,13 @@ void Simulation::evaluate() {
       surface_tension_.is_enabled() &&
       (step_ == 0 || maxima[squared_detection_displacement] >= surface_tension_.largest_squared_displacement());
   const double squared_speed_now = maxima[squared_speed];
-  redistribute_if_due(maxima[squared_displacement]);
+  redistribute_if_due(maxima[squared_displacement], maxima[squared_solid_displacement]);
 
-  predict(solid_, steps_.previous);
+  solid_step_->predict(solid_, steps_.previous);
   if (rigid_body_.is_enabled())
     rigid_body_.predict(fluid_, steps_.previous);
   else
     predict_liquid();
-  solid_sweep_.update_stress(solid_, solid_.owned);
   timer_.lap(Phase::update);
 
   start_exchange(distribution_.fluid_halo(), fluid_ghosted_);
@@ -246,14 +259,14 @@ void Simulation::evaluate() {
   timer_.lap(Phase::communication);
   add_gravity();
   if (rigid_body_.is_enabled()) add_forces_on_rigid_body();
-  if (case_.solid.damping_rate > 0) add_mass_proportional_damping(solid_, case_.solid.damping_rate);
+  if (parameters_.damping_rate > 0) add_mass_proportional_damping(solid_, parameters_.damping_rate);
 }
 
 void Simulation::move(double request) {
   const double limit = case_.safety.speed_limit;
   const MotionMaxima fluid =
       rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit) : kick_and_drift(fluid_, steps_, limit);
-  const MotionMaxima solid = kick_and_drift(solid_, steps_, limit);
+  const MotionMaxima solid = solid_step_->move(solid_, steps_, limit);
   time_ += steps_.next;
   ++step_;
   steps_.previous = steps_.next;
@@ -264,27 +277,38 @@ void Simulation::move(double request) {
 void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid, double request) {
   std::array<double, maxima_count> mine{};
   mine[squared_speed] = std::max(fluid.squared_speed, solid.squared_speed);
-  mine[squared_displacement] = std::max(fluid.squared_displacement, solid.squared_displacement);
+  if (solid_step_->is_total_lagrangian()) {
+    mine[squared_displacement] = fluid.squared_displacement;
+    mine[squared_solid_displacement] = solid.squared_displacement;
+  } else {
+    mine[squared_displacement] = std::max(fluid.squared_displacement, solid.squared_displacement);
+  }
   mine[squared_detection_displacement] = fluid.squared_detection_displacement;
   const bool too_deep = contact_.owner() == communicator_.rank() && contact_.overlap_is_too_deep();
-  mine[failure] = fluid.beyond_limit || solid.beyond_limit || too_deep ? 1.0 : 0.0;
+  const bool unsound = fluid.beyond_limit || solid.beyond_limit || solid_step_->inversion(solid_).has_value();
+  mine[failure] = unsound || too_deep ? 1.0 : 0.0;
   mine[requested] = request;
   maxima_.start(mine);
 }
 
-void Simulation::redistribute_if_due(double largest_squared_displacement) {
+void Simulation::redistribute_if_due(double largest_squared_displacement, double solid_squared_displacement) {
   const double allowed = parameters_.range.largest_displacement();
   const std::int64_t interval = case_.parallel.repartition_interval;
   const bool forced = interval > 0 && step_ % interval == 0;
-  if (is_distributed_ && !forced && largest_squared_displacement <= allowed * allowed) return;
+  if (is_distributed_ && !forced && largest_squared_displacement <= allowed * allowed) {
+    // Such a solid stays with its ranks, but the drop may come upon another part of it.
+    if (solid_squared_displacement > allowed * allowed && fluid_total_ > 0) {
+      contact_.regather(fluid_, solid_, parameters_.range);
+      solid_.list_position.take(solid_.position);
+      timer_.lap(Phase::redistribution);
+    }
+    return;
+  }
   distribution_.redistribute(fluid_, solid_, forced);
   check_nothing_is_lost();
   corrected_density_.resize(fluid_.size() + column_padding);
   fluid_sweep_.resize(fluid_);
-  // Blocks without ghosts in reach may still load ghosts' rows, to weight them by zero, before the halo has arrived.
-  for (const RowRange& range : solid_.ghosts)
-    std::fill(solid_.density.data() + range.begin, solid_.density.data() + range.end, case_.solid.density);
-  solid_sweep_.update_stress(solid_, solid_.ghosts);
+  solid_step_->relist(solid_, distribution_);
   contact_.regather(fluid_, solid_, parameters_.range);
   if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_);
   if (surface_tension_.is_enabled() && !is_distributed_) surface_tension_.recover(fluid_, distribution_);
@@ -334,7 +358,7 @@ double Simulation::next_step_length(double squared_speed_now) const {
 void Simulation::sweep_what_needs_no_ghosts() {
   fluid_sweep_.apply(fluid_, distribution_.inner_fluid());
   timer_.lap(Phase::fluid_sweep);
-  solid_sweep_.apply(solid_, distribution_.solid(), HypoelasticSweep::Blocks::without_ghosts);
+  solid_step_->sweep_inner(solid_, distribution_);
   timer_.lap(Phase::solid_sweep);
 }
 
@@ -348,8 +372,7 @@ void Simulation::sweep_the_rest() {
   fluid_sweep_.pack(fluid_, fluid_.ghosts);
   fluid_sweep_.apply(fluid_, distribution_.border_fluid());
   timer_.lap(Phase::fluid_sweep);
-  solid_sweep_.update_stress(solid_, solid_.ghosts);
-  solid_sweep_.apply(solid_, distribution_.solid(), HypoelasticSweep::Blocks::with_ghosts);
+  solid_step_->sweep_rest(solid_, distribution_);
   timer_.lap(Phase::solid_sweep);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The state of a run and its step (Sec. 2.6).
 
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "simulation/phase_timer.hpp"
 #include "simulation/rigid_body_step.hpp"
 #include "simulation/saved_simulation.hpp"
+#include "simulation/solid_step.hpp"
 #include "simulation/surface_tension_step.hpp"
 #include "solid/hypoelastic/hypoelastic_sweep.hpp"
 #include "time_integration/leapfrog.hpp"
@@ -40,6 +42,7 @@ struct DerivedParameters {
   FluidPairParameters fluid_pair;
   HypoelasticParameters solid;
   TimeStepLimits time_step;
+  double damping_rate;  ///< of the solid, in proportion to mass, 1/s
 };
 
 /// A run, step by step: evaluate() brings everything to the present instant, move() goes on to the next. All calls are
@@ -62,6 +65,10 @@ class Simulation {
   /// Kick and drift to the next instant (Eqs 36-39). The largest `request` of all ranks is known after settle().
   void move(double request = 0);
 
+  /// Brings the solid's density, pressure and stress, which some formulations leave out of a step, to the present
+  /// instant; between evaluate() and move().
+  void complete_solid() { solid_step_->complete(solid_); }
+
   /// What was asked for with the last move(), the same on every rank; good after settle().
   double request() const { return request_; }
   /// All that the steps to come start from; between settle() and evaluate().
@@ -80,6 +87,7 @@ class Simulation {
   const SurfaceTensionStep& surface_tension() const { return surface_tension_; }
   const ContactStep& contact() const { return contact_; }
   const RigidBodyStep& rigid_body() const { return rigid_body_; }
+  const SolidStep& solid_step() const { return *solid_step_; }
   const Distribution& distribution() const { return distribution_; }
   /// Global ids of the particles whose mean displacement is the deflection.
   const std::vector<std::int64_t>& deflection_probe() const { return deflection_probe_; }
@@ -96,8 +104,9 @@ class Simulation {
   void post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid, double request);
   void check_safety(double failure);
   [[noreturn]] void stop_with_diagnosis();
+  void stop_where_inverted();
   void check_nothing_is_lost();
-  void redistribute_if_due(double squared_displacement);
+  void redistribute_if_due(double squared_displacement, double squared_solid_displacement);
   /// Velocity, density and pressure at the present instant, ready for the sweep.
   void predict_liquid();
   void correct_density();
@@ -116,9 +125,9 @@ class Simulation {
   std::vector<std::int64_t> deflection_probe_, middle_probe_;
   Vector box_low_, box_high_;  // a particle beyond is lost
 
+  std::unique_ptr<SolidStep> solid_step_;
   Distribution distribution_;
   FluidSweep fluid_sweep_;
-  HypoelasticSweep solid_sweep_;
   SurfaceTensionStep surface_tension_;
   ContactStep contact_;
   RigidBodyStep rigid_body_;

@@ -95,6 +95,12 @@ void predict(SolidParticles& s, double previous_step) {
                    s.deviatoric_stress.columns[c]);
 }
 
+void predict_velocity(SolidParticles& s, double previous_step) {
+  const double half = 0.5 * previous_step;
+  advance_column(s.owned, half, s.acceleration.x, s.staggered_velocity.x, s.velocity.x);
+  advance_column(s.owned, half, s.acceleration.y, s.staggered_velocity.y, s.velocity.y);
+}
+
 MotionMaxima motion_maxima(const FluidParticles& f, double speed_limit) {
   SquaredMaximum speed, moved, detected;
   add_rows(f.owned, f.staggered_velocity, speed);
@@ -135,6 +141,46 @@ MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_l
   SquaredMaximum speed, moved, none;
   add_rows(s.owned, s.staggered_velocity, speed);
   add_rows(s.owned, s.position, s.list_position, moved);
+  return finish(speed, moved, none, speed_limit);
+}
+
+MotionMaxima kick_and_drift_velocity(SolidParticles& s, StepLengths steps, double speed_limit, bool is_heated) {
+  const double kick = steps.kick(), drift = steps.next;
+  SquaredMaximum speed, moved, none;
+  double *ax = s.acceleration.x.data(), *ay = s.acceleration.y.data();
+  double *u = s.staggered_velocity.x.data(), *v = s.staggered_velocity.y.data();
+  double *x = s.position.x.data(), *y = s.position.y.data();
+  const double *is_fixed = s.is_fixed.data(), *x0 = s.list_position.x.data(), *y0 = s.list_position.y.data();
+  for (const RowRange& range : s.owned) {
+    std::int64_t row = range.begin;
+    // One pass: these columns are read and written in every step, and little else is.
+    for (; row + pack_size <= range.end; row += pack_size) {
+      const Pack is_free = Pack(1.0) - load(is_fixed + row);
+      const Pack a = load(ax + row) * is_free, b = load(ay + row) * is_free;
+      const Pack new_u = load(u + row) + Pack(kick) * a, new_v = load(v + row) + Pack(kick) * b;
+      const Pack new_x = load(x + row) + Pack(drift) * new_u, new_y = load(y + row) + Pack(drift) * new_v;
+      store(a, ax + row);
+      store(b, ay + row);
+      store(new_u, u + row);
+      store(new_v, v + row);
+      store(new_x, x + row);
+      store(new_y, y + row);
+      speed.add(new_u, new_v);
+      moved.add(new_x - load(x0 + row), new_y - load(y0 + row));
+    }
+    for (; row < range.end; ++row) {
+      const double is_free = 1.0 - is_fixed[row];
+      ax[row] *= is_free;
+      ay[row] *= is_free;
+      u[row] += kick * ax[row];
+      v[row] += kick * ay[row];
+      x[row] += drift * u[row];
+      y[row] += drift * v[row];
+      speed.add(u[row], v[row]);
+      moved.add(x[row] - x0[row], y[row] - y0[row]);
+    }
+  }
+  if (is_heated) accumulate_energy(s.owned, steps.next, s.mass, s.dissipation_rate, s.dissipated_energy);
   return finish(speed, moved, none, speed_limit);
 }
 

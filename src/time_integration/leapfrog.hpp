@@ -37,9 +37,16 @@ MotionMaxima motion_maxima(const FluidParticles& fluid, double speed_limit);
 void predict(FluidParticles& fluid, double previous_step);
 void predict(SolidParticles& solid, double previous_step);
 
+/// Velocity alone, of a solid whose stress follows from its position.
+void predict_velocity(SolidParticles& solid, double previous_step);
+
 /// Velocity, density (and deviatoric stress) from t - previous/2 to t + next/2, position from t to t + next (36-39);
 /// held particles (is_fixed 1) stay. `speed_limit` in m/s.
 MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit);
 MotionMaxima kick_and_drift(SolidParticles& solid, StepLengths steps, double speed_limit);
+
+/// The same for a solid whose stress follows from its position: velocity and position, and if `is_heated` the
+/// dissipated energy.
+MotionMaxima kick_and_drift_velocity(SolidParticles& solid, StepLengths steps, double speed_limit, bool is_heated);
 
 }  // namespace sphdrop

@@ -17,11 +17,17 @@ struct TimeStepLimits {
   double density = 0;           ///< rho of the liquid, kg/m3
   double surface_tension = 0;   ///< sigma, N/m; 0 lifts (41)
   double viscosity = 0;         ///< mu, Pa s; 0 lifts (42)
+  double viscous_time = 0;      ///< of a solid with stiffness-proportional damping, s
 };
 
-/// 0.1 h/(c + u_max), s (40).
+/// 0.1 h/(c + u_max), s (40). Stiffness-proportional damping, as the explicit step lags it, shortens it as it damps the
+/// fastest mode, omega about 4 c/h: by sqrt(1 + z^2) - z with the damping ratio z = viscous_time omega/2 (Belytschko,
+/// Liu & Moran 2000, 6.2.3).
 inline double acoustic_time_step(const TimeStepLimits& l, double largest_speed) {
-  return l.sound_cfl * l.smoothing_length / (l.sound_speed + largest_speed);
+  const double step = l.sound_cfl * l.smoothing_length / (l.sound_speed + largest_speed);
+  if (l.viscous_time <= 0) return step;
+  const double ratio = 2.0 * l.viscous_time * l.sound_speed / l.smoothing_length;
+  return step / (std::sqrt(1.0 + ratio * ratio) + ratio);
 }
 /// 0.1 sqrt(rho h^3/(2 pi sigma)), s (41).
 inline double capillary_time_step(const TimeStepLimits& l) {

@@ -1,0 +1,152 @@
+#include "solid/cells/lattice_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace sphdrop {
+
+namespace {
+
+struct Place {
+  std::int64_t column, row;
+  auto operator<=>(const Place&) const = default;
+};
+
+std::vector<Place> lattice_places(std::span<const Vector> positions, double spacing) {
+  std::vector<Place> places;
+  places.reserve(positions.size());
+  if (positions.empty()) return places;
+  const Vector origin = positions[0];
+  for (const Vector& p : positions) {
+    const double x = (p.x - origin.x) / spacing, y = (p.y - origin.y) / spacing;
+    const double column = std::floor(x + 0.5), row = std::floor(y + 0.5);
+    if (!(std::abs(x - column) < 1e-3 && std::abs(y - row) < 1e-3))
+      throw std::invalid_argument("a solid of cells needs its particles on a square lattice");
+    places.push_back({static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)});
+    if (places.size() > 1 && !(places[places.size() - 2] < places.back()))
+      throw std::invalid_argument("a solid of cells needs its particles column by column, from bottom to top");
+  }
+  return places;
+}
+
+enum Corner : std::size_t { sw, se, nw, ne };
+// The direction of each corner.
+constexpr std::array<double, 4> to_east{-1, 1, -1, 1}, to_north{-1, -1, 1, 1};
+
+// Sums over the quadrants of a cell: area and moments about the middle of its corners, in spacings. All terms are
+// multiples of a power of 2, so that equal shapes have equal bits.
+struct Body {
+  double area = 0, first_x = 0, first_y = 0, second_x = 0, second_y = 0;
+
+  void add_quadrant(double share, double x, double y) {
+    constexpr double quadrant = 0.25, own_moment = 1.0 / 48.0;  // of a square of side 1/2
+    area += share * quadrant;
+    first_x += share * quadrant * x;
+    first_y += share * quadrant * y;
+    second_x += share * quadrant * (x * x + own_moment);
+    second_y += share * quadrant * (y * y + own_moment);
+  }
+};
+
+}  // namespace
+
+LatticeCells::LatticeCells(std::span<const Vector> positions, std::span<const char> is_held, double spacing,
+                           bool held_at_edge) {
+  const std::vector<Place> places = lattice_places(positions, spacing);
+  const auto count = static_cast<std::int32_t>(places.size());
+  const auto place = [&](std::int32_t k) { return places[static_cast<std::size_t>(k)]; };
+  const auto held = [&](std::int32_t k) { return is_held[static_cast<std::size_t>(k)] != 0; };
+  const auto is_north_of_next = [&](std::int32_t k) {
+    return k >= 0 && k + 1 < count && place(k + 1) == Place{place(k).column, place(k).row + 1};
+  };
+  east_.assign(places.size(), -1);
+  west_.assign(places.size(), -1);
+  // The next column's particles are met in the same order as this one's.
+  std::int32_t east = 0;
+  for (std::int32_t k = 0; k < count; ++k) {
+    const Place wanted{place(k).column + 1, place(k).row};
+    while (east < count && place(east) < wanted) ++east;
+    if (east == count || place(east) != wanted) continue;
+    east_[static_cast<std::size_t>(k)] = east;
+    west_[static_cast<std::size_t>(east)] = k;
+  }
+
+  const auto is_cell = [&](std::int32_t k) {
+    return k >= 0 && east_of(k) >= 0 && is_north_of_next(k) && is_north_of_next(east_of(k));
+  };
+  // By their south-west corners: the four cells about a particle, -1 for none.
+  const auto cells_about = [&](std::int32_t k) {
+    const std::int32_t south = k > 0 && is_north_of_next(k - 1) ? k - 1 : -1;
+    std::array<std::int32_t, 4> cells{south < 0 ? -1 : west_of(south), south, west_of(k), k};
+    for (std::int32_t& cell : cells)
+      if (!is_cell(cell)) cell = -1;
+    return cells;
+  };
+
+  std::vector<Body> bodies(places.size());
+  for (std::int32_t k = 0; k < count; ++k) {
+    const std::array<std::int32_t, 4> cells = cells_about(k);
+    if (cells == std::array<std::int32_t, 4>{-1, -1, -1, -1}) {
+      if (held(k)) continue;
+      throw std::invalid_argument("a solid of cells must be two particles thick everywhere: particle " +
+                                  std::to_string(k) + " belongs to no 2 x 2 block");
+    }
+    if (held_at_edge && held(k)) continue;
+    // A quadrant's middle from the middle of the cell in direction `of`, of which this particle is the opposite corner.
+    const auto give = [&](std::size_t quadrant, std::size_t of, double share) {
+      if (cells[of] < 0) return;
+      bodies[static_cast<std::size_t>(cells[of])].add_quadrant(share, 0.25 * to_east[quadrant] - 0.5 * to_east[of],
+                                                               0.25 * to_north[quadrant] - 0.5 * to_north[of]);
+    };
+    for (const std::size_t quadrant : {sw, se, nw, ne}) {
+      if (cells[quadrant] >= 0) {
+        give(quadrant, quadrant, 1.0);
+        continue;
+      }
+      // The corners' numbers are two bits, east and north.
+      const std::size_t beside = quadrant ^ 1U, above_or_below = quadrant ^ 2U, opposite = quadrant ^ 3U;
+      const int found = (cells[beside] >= 0 ? 1 : 0) + (cells[above_or_below] >= 0 ? 1 : 0);
+      if (found == 0) {
+        give(quadrant, opposite, 1.0);
+      } else {
+        give(quadrant, beside, 1.0 / found);
+        give(quadrant, above_or_below, 1.0 / found);
+      }
+    }
+  }
+
+  shape_index_.assign(places.size(), -1);
+  std::map<std::array<double, 7>, std::int32_t> known;
+  for (std::int32_t k = 0; k < count; ++k) {
+    if (!is_cell(k)) continue;
+    const bool held_sw = held(k), held_nw = held(k + 1), held_se = held(east_of(k)), held_ne = held(east_of(k) + 1);
+    if (held_sw && held_nw && held_se && held_ne) continue;
+    // Where one side is held and the other free, the edge lies midway, and so does the middle of what is left.
+    const auto direction = [&](bool a_low, bool b_low, bool a_high, bool b_high) {
+      if (!held_at_edge) return 0;
+      if (a_low && b_low && !a_high && !b_high) return 1;
+      return !a_low && !b_low && a_high && b_high ? -1 : 0;
+    };
+    const int free_x = direction(held_sw, held_nw, held_se, held_ne);
+    const int free_y = direction(held_sw, held_se, held_nw, held_ne);
+    const Body& body = bodies[static_cast<std::size_t>(k)];
+    const double x = body.first_x / body.area, y = body.first_y / body.area;
+    const std::array<double, 7> numbers{body.area,
+                                        x - 0.25 * free_x,
+                                        y - 0.25 * free_y,
+                                        body.second_x - body.area * x * x,
+                                        body.second_y - body.area * y * y,
+                                        free_x != 0 ? 2.0 : 1.0,
+                                        free_y != 0 ? 2.0 : 1.0};
+    const auto [found, is_new] = known.emplace(numbers, static_cast<std::int32_t>(shapes_.size()));
+    if (is_new) shapes_.push_back({numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]});
+    shape_index_[static_cast<std::size_t>(k)] = found->second;
+    ++cell_count_;
+  }
+}
+
+}  // namespace sphdrop

@@ -1,0 +1,47 @@
+#pragma once
+// The cells of a whole body whose particles stand on a square lattice.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/vector.hpp"
+#include "solid/cells/cell.hpp"
+
+namespace sphdrop {
+
+/// Every 2 x 2 block of particles is a cell. The square about each particle has four quadrants: one goes to the cell in
+/// its direction; where there is none, in halves to the cells beyond its two sides, or wholly to the one of them that
+/// exists, or to the particle's only cell. So the cells fill the body exactly and reach d/2 beyond the outermost
+/// particles. Cells of held particles alone are left out: nothing deforms them.
+class LatticeCells {
+ public:
+  LatticeCells() = default;
+
+  /// `positions`: the undeformed body, column by column in ascending x, from bottom to top in a column; m. `is_held`: 1
+  /// for particles that never move. `held_at_edge`: the body ends, and is held, midway between held and free particles,
+  /// as in an ideal clamp; otherwise held particles are part of it. Throws std::invalid_argument if the positions are
+  /// not such a lattice, or if a particle that is not held belongs to no cell.
+  LatticeCells(std::span<const Vector> positions, std::span<const char> is_held, double spacing, bool held_at_edge);
+
+  std::size_t particle_count() const { return east_.size(); }
+  std::int64_t cell_count() const { return cell_count_; }
+  /// The particle one column to the right or left of particle k, or -1.
+  std::int32_t east_of(std::int32_t k) const { return east_[static_cast<std::size_t>(k)]; }
+  std::int32_t west_of(std::int32_t k) const { return west_[static_cast<std::size_t>(k)]; }
+  /// The shape of the cell whose south-west corner is particle k; nullptr if there is none. Its north-west corner is
+  /// k + 1, the others are east_of(k) and east_of(k) + 1.
+  const CellShape<double>* shape(std::int32_t k) const {
+    const std::int32_t index = shape_index_[static_cast<std::size_t>(k)];
+    return index < 0 ? nullptr : &shapes_[static_cast<std::size_t>(index)];
+  }
+  /// The different shapes.
+  std::span<const CellShape<double>> shapes() const { return shapes_; }
+
+ private:
+  std::vector<std::int32_t> east_, west_, shape_index_;
+  std::vector<CellShape<double>> shapes_;
+  std::int64_t cell_count_ = 0;
+};
+
+}  // namespace sphdrop
