@@ -41,6 +41,9 @@ except ModuleNotFoundError as missing:
         raise
     sys.exit(f"error: this Python has no {missing.name}; numpy, matplotlib and h5py are Debian's: /usr/bin/python3 cases/compare.py")
 
+from program import HELP as PROGRAM_HELP  # noqa: E402
+from program import default_program  # noqa: E402
+
 ROOT = CASES.parent
 
 
@@ -56,7 +59,7 @@ def options() -> argparse.ArgumentParser:
     parser.add_argument("--level", choices=LEVELS, default=LEVELS[0], help="resolution (default: paper)")
     parser.add_argument("--ranks", type=int, default=2, help="MPI ranks of a run (default: 2)")
     parser.add_argument("--parallel", type=int, default=1, help="runs at a time (default: 1)")
-    parser.add_argument("--program", type=Path, default=ROOT / "build/release/src/sphdrop", help="default: build/release/src/sphdrop")
+    parser.add_argument("--program", type=Path, default=default_program(), help=PROGRAM_HELP)
     parser.add_argument("--results", type=Path, default=ROOT / "results/comparison", help="default: results/comparison")
     parser.add_argument("--report", type=Path, metavar="DIR",
                         help="folder of the report (default: RESULTS/LEVEL/report, or report_STUDY_... for named studies)")

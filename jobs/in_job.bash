@@ -1,11 +1,12 @@
 # shellcheck shell=bash
 # What the job scripts of this folder share; they read it in. It looks at these variables, which sbatch passes on:
-#   SPHDROP_PROGRAM   the program, if it is not build/release/src/sphdrop
+#   SPHDROP_PROGRAM   the program, if it is neither build/release/src/sphdrop nor the sphdrop of the path
 #   SPHDROP_LAUNCHER  what starts the ranks, given -n and their number, if it is not "mpirun"; where Slurm has PMIx,
 #                     "srun --mpi=pmix --kill-on-bad-exit=1" does as well
 #   SPHDROP_PYTHON    a Python 3.11 with numpy and h5py, if it is not /usr/bin/python3
 
 program=${SPHDROP_PROGRAM:-build/release/src/sphdrop}
+[[ -x $program || -n ${SPHDROP_PROGRAM:-} ]] || program=$(command -v sphdrop || printf '%s' "$program")
 ranks=${SLURM_NTASKS:-1}
 read -ra launcher <<<"${SPHDROP_LAUNCHER:-mpirun}"
 

@@ -11,9 +11,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from program import HELP as PROGRAM_HELP
+from program import default_program
 from sweep.table import SweepError, folder_of, grid, read_table, row_of, settings
 
-ROOT = Path(__file__).resolve().parents[2]
 EPILOG = """examples:
   sphdrop-sweep table 'solid.length=8 mm;12 mm' 'drop.velocity=[0,-0.5];[0,-1]' > table.csv
   sphdrop-sweep run table.csv cases/cantilever/case.cfg results/sweep --parallel 2
@@ -40,7 +41,7 @@ def parser() -> argparse.ArgumentParser:
     run = command("run", "make the runs on this machine, then collect", "TABLE", "CASE", "FOLDER")
     run.add_argument("--parallel", type=int, default=1, help="runs at a time (default: 1)")
     run.add_argument("--ranks", type=int, default=1, help="MPI ranks of a run (default: 1)")
-    run.add_argument("--program", type=Path, default=ROOT / "build/release/src/sphdrop", help="default: build/release/src/sphdrop")
+    run.add_argument("--program", type=Path, default=default_program(), help=PROGRAM_HELP)
     run.add_argument("--any-version", action="store_true", help="take finished runs of any version of the program")
     command("collect", "write FOLDER/sweep.csv and the figures of the runs that are there", "TABLE", "FOLDER")
     table = commands.add_parser("table", help="print the table of every combination of values",
