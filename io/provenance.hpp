@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "decomposition/communicator.hpp"
+#include "io/collective_error.hpp"
 #include "io/json.hpp"
 
 namespace sphdrop {
@@ -22,6 +23,12 @@ struct BuildInfo {
   std::string architecture;  ///< as for -march
 };
 const BuildInfo& build_info();
+
+/// run.json could not be written; thrown on all ranks.
+class RunRecordError : public CollectiveError {
+ public:
+  using CollectiveError::CollectiveError;
+};
 
 /// The record of one run, kept by all ranks and written by rank 0. Written at the start it says "running", which is
 /// what remains of a run that was killed.

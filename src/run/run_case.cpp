@@ -106,11 +106,12 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   }
   write_effective_case(communicator, directory, input);
   RunRecord record(communicator, arguments);
+  const auto write_record = [&] { collectively<RunRecordError>(communicator, [&] { record.write(directory); }); };
   if (restart) {
     record.set("restarted_from", restart->checkpoint.path.filename().string());
     record.set("restarted_at_step", restart->checkpoint.header.step);
   }
-  record.write(directory);
+  write_record();
 
   Simulation simulation(communicator, input, initial.fluid, initial.solid);
   if (restart) taking_up([&] { simulation.restore(restart->checkpoint); });
@@ -123,9 +124,9 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
                                                 : Progress::Mode::log;
   Recorder recorder =
       taking_up([&] { return Recorder(simulation, options, restart ? &restart->checkpoint : nullptr); });
-  Checkpointer checkpointer(
-      simulation, recorder,
-      {directory, version_text(), build_info().git_commit, start, walltime_limit(command, start)});
+  Checkpointer checkpointer(simulation, recorder,
+                            {directory, version_text(), build_info().git_commit, start, walltime_limit(command, start),
+                             restart ? restart->checkpoint.path : std::filesystem::path()});
   restart.reset();
   try {
     for (;;) {
@@ -133,7 +134,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
       if (const std::string why = checkpointer.act(); !why.empty()) {
         recorder.interrupt();
         record.finish("interrupted: " + why);
-        record.write(directory);
+        write_record();
         say(communicator, stderr,
             fmt::format("sphdrop: {}: stopped at step {}, t = {:.6g} s. To go on: --restart latest ({})\n", why,
                         simulation.step(), simulation.time(), checkpointer.last_checkpoint().string()));
@@ -149,7 +150,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   } catch (const SafetyError& error) {
     const std::string last = recorder.last_snapshot().string();
     record.finish(std::string("stopped: ") + error.what());
-    record.write(directory);
+    write_record();
     throw SafetyError(fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last));
   }
   const std::uint64_t hash = recorder.finish();
@@ -160,7 +161,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   record.set("load_imbalance", summary.load_imbalance);
   for (const PhaseTime& phase : summary.phases) record.set("seconds in " + phase.name, phase.seconds);
   record.finish("completed", hash);
-  record.write(directory);
+  write_record();
   say(communicator, stdout, command.quiet ? fmt::format("state hash {:016x}\n", hash) : summary_text(summary));
   return success;
 }
