@@ -13,7 +13,8 @@ class MemoryFile {
 
   int descriptor() const { return file_.get(); }
 
-  /// Writes what it holds to the same places of `target`, which gets its size. Throws std::system_error.
+  /// Writes what it holds to the same places of `target`, which gets its size. What was left out here stays there as it
+  /// is: nothing, in a file that was empty. Throws std::system_error.
   void copy_to(FileDescriptor& target) const;
 
  private:

@@ -24,7 +24,7 @@ struct BuildInfo {
 };
 const BuildInfo& build_info();
 
-/// run.json could not be written; thrown on all ranks.
+/// run.json could not be written.
 class RunRecordError : public CollectiveError {
  public:
   using CollectiveError::CollectiveError;
@@ -49,11 +49,10 @@ class RunRecord {
   void finish(std::string_view status);
 
   std::string json() const;
-  /// Rank 0 (others do nothing): writes json() to `directory`/run.json atomically. Throws std::system_error.
-  void write(const std::filesystem::path& directory) const;
+  /// Collective: rank 0 writes json() to `directory`/run.json atomically. Throws RunRecordError on all ranks.
+  void write(const Communicator& communicator, const std::filesystem::path& directory) const;
 
  private:
-  int rank_;
   int ranks_;
   std::vector<std::string> hosts_;  ///< one a rank
   std::vector<std::string> command_line_;

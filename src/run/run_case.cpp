@@ -106,12 +106,11 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   }
   write_effective_case(communicator, directory, input);
   RunRecord record(communicator, arguments);
-  const auto write_record = [&] { collectively<RunRecordError>(communicator, [&] { record.write(directory); }); };
   if (restart) {
     record.set("restarted_from", restart->checkpoint.path.filename().string());
     record.set("restarted_at_step", restart->checkpoint.header.step);
   }
-  write_record();
+  record.write(communicator, directory);
 
   Simulation simulation(communicator, input, initial.fluid, initial.solid);
   if (restart) taking_up([&] { simulation.restore(restart->checkpoint); });
@@ -134,7 +133,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
       if (const std::string why = checkpointer.act(); !why.empty()) {
         recorder.interrupt();
         record.finish("interrupted: " + why);
-        write_record();
+        record.write(communicator, directory);
         say(communicator, stderr,
             fmt::format("sphdrop: {}: stopped at step {}, t = {:.6g} s. To go on: --restart latest ({})\n", why,
                         simulation.step(), simulation.time(), checkpointer.last_checkpoint().string()));
@@ -149,9 +148,14 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     }
   } catch (const SafetyError& error) {
     const std::string last = recorder.last_snapshot().string();
+    std::string text = fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last);
     record.finish(std::string("stopped: ") + error.what());
-    write_record();
-    throw SafetyError(fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last));
+    try {
+      record.write(communicator, directory);
+    } catch (const RunRecordError& loss) {
+      text += fmt::format("\nwarning: {}", loss.what());
+    }
+    throw SafetyError(text);
   }
   const std::uint64_t hash = recorder.finish();
   const RunSummary summary = recorder.summary();
@@ -161,7 +165,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   record.set("load_imbalance", summary.load_imbalance);
   for (const PhaseTime& phase : summary.phases) record.set("seconds in " + phase.name, phase.seconds);
   record.finish("completed", hash);
-  write_record();
+  record.write(communicator, directory);
   say(communicator, stdout, command.quiet ? fmt::format("state hash {:016x}\n", hash) : summary_text(summary));
   return success;
 }

@@ -1,7 +1,7 @@
 // Signals and clocks that jump at chosen moments, for LD_PRELOAD. On the rank INTERRUPT_RANK the signal
-// INTERRUPT_SIGNAL is raised just before the call number INTERRUPT_NUMBER (from 0 on) of the kind INTERRUPT_CALL:
-// MPI_Init, partition (METIS), or write, fsync and rename of files whose path ends in INTERRUPT_FILE. With CLOCK_JUMP,
-// in s, the clock that tells the time of day is that much ahead from the first such call on.
+// INTERRUPT_SIGNAL is raised just before the calls number INTERRUPT_NUMBER (from 0 on; several with commas between) of
+// the kind INTERRUPT_CALL: MPI_Init, partition (METIS), or write, fsync and rename of files whose path ends in
+// INTERRUPT_FILE. With CLOCK_JUMP, in s, the clock that tells the time of day is that much ahead from such a call on.
 #include <dlfcn.h>
 #include <metis.h>
 #include <mpi.h>
@@ -27,8 +27,13 @@ const char* setting(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+bool is_chosen(long call) {
+  const std::string chosen = std::string(",") + setting("INTERRUPT_NUMBER") + ',';
+  return chosen.find(',' + std::to_string(call) + ',') != std::string::npos;
+}
+
 void interrupt(std::string_view call) {
-  if (call != setting("INTERRUPT_CALL") || calls++ != std::atol(setting("INTERRUPT_NUMBER"))) return;
+  if (call != setting("INTERRUPT_CALL") || !is_chosen(calls++)) return;
   clock_jump = std::atol(setting("CLOCK_JUMP"));
   if (const int signal = std::atoi(setting("INTERRUPT_SIGNAL")); signal != 0) ::kill(::getpid(), signal);
 }

@@ -3,14 +3,13 @@ on another number of ranks, until the run is done; then the next run begins. Aft
 in time, every snapshot in the index must open and no checkpoint may be lost; every finished run must have left the same
 bytes as one that was never killed.
 
-usage: kill_cycles.py [--cycles N] [--seed S]
+usage: kill_cycles.py [--cycles N] [--seed S] [--at-once]
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
 import random
 import shutil
 import signal
@@ -25,22 +24,23 @@ from pathlib import Path
 import h5py
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from background_run import BackgroundRun, rank_of, send  # noqa: E402
 from running_program import (  # noqa: E402
-    CASE,
+    AT_ONCE,
     DONE,
-    Running,
     checkpoints,
-    environment_of,
     hashes_in,
+    interrupted,
+    little_case,
     results,
     run,
-    send,
+    state_hash,
     step_of,
 )
 from sphdrop_reader import Checkpoint, Run  # noqa: E402
 
-LONGEST_END = 10.0  # s, from the kill until the last process is gone
-FREQUENT = CASE.replace("interval = 4e-6", "interval = 2e-6").replace("snapshot_interval = 8e-6", "snapshot_interval = 3e-6")
+LONGEST_END = 30.0  # s, from the kill until the last process is gone
+CASE = little_case(checkpoint_interval=2e-6, snapshot_interval=3e-6)
 # What rank 0 may be doing when it is killed: which call, on which files, about how often it comes in a run.
 CALLS = (
     ("write", ".h5.part", 200), ("fsync", ".h5.part", 20), ("rename", ".h5.part", 20),
@@ -66,7 +66,8 @@ class Tally:
 
 
 class Cycles:
-    def __init__(self, seed: int, place: Path) -> None:
+    def __init__(self, seed: int, place: Path, options: tuple[str, ...]) -> None:
+        self.options = options
         self.random = random.Random(seed)
         self.place = place
         self.tallies: dict[str, Tally] = defaultdict(Tally)
@@ -77,7 +78,7 @@ class Cycles:
         self.duration = time.monotonic() - start
         if whole.returncode != DONE:
             raise Failed(f"the run does not even work when left alone:\n{whole.stderr}")
-        [self.hash] = hashes_in(whole.stdout)
+        self.hash = state_hash(whole)
         self.expected = results(self.reference / "out")
         self.folder = self.new_folder("run")
 
@@ -85,7 +86,7 @@ class Cycles:
         folder = self.place / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
-        (folder / "little.cfg").write_text(FREQUENT, encoding="utf-8")
+        (folder / "little.cfg").write_text(CASE, encoding="utf-8")
         return folder
 
     @property
@@ -100,16 +101,13 @@ class Cycles:
         ranks = self.random.randint(1, 3)
         kind = self.random.choice(("a rank", "mpiexec", "inside a call"))
         delay = self.random.uniform(0, self.duration)
-        options: tuple[str, ...] = ()
+        options = self.options
         if kind == "inside a call":
             call, file, most = self.random.choice(CALLS)
             kind = f"inside {call} {file}"
-            settings = {"LD_PRELOAD": os.environ["SPHDROP_INTERRUPTED_CALLS"], "INTERRUPT_SIGNAL": int(signal.SIGKILL),
-                        "INTERRUPT_CALL": call, "INTERRUPT_FILE": file, "INTERRUPT_RANK": 0,
-                        "INTERRUPT_NUMBER": int(most * self.random.random() ** 2)}
-            options = tuple(word for name, value in settings.items() for word in ("-x", f"{name}={value}"))
+            options += interrupted(call, file, by=signal.SIGKILL, number=int(most * self.random.random() ** 2))
         before = self.newest_step()
-        with Running("little.cfg", "--quiet", "--restart", "auto", ranks=ranks, directory=self.folder,
+        with BackgroundRun("little.cfg", "--quiet", "--restart", "auto", ranks=ranks, directory=self.folder,
                      options=options) as running:
             if kind.startswith("inside"):
                 killed = self.wait_until_one_is_killed(running)
@@ -128,7 +126,7 @@ class Cycles:
             raise Failed(f"{'a kill' if killed else 'no kill'}, but the run ended with {code}:\n{text}")
         self.tallies[kind].seconds_until_gone.append(seconds)
 
-    def kill_after(self, delay: float, running: Running, kind: str, ranks: int) -> bool:
+    def kill_after(self, delay: float, running: BackgroundRun, kind: str, ranks: int) -> bool:
         limit = time.monotonic() + delay
         while time.monotonic() < limit:
             if running.process.poll() is not None:
@@ -139,23 +137,23 @@ class Cycles:
             return True
         chosen = str(self.random.randrange(ranks))
         for pid in running.processes():
-            if environment_of(pid).get("OMPI_COMM_WORLD_RANK") == chosen:
+            if rank_of(pid) == chosen:
                 send(pid, signal.SIGKILL)
                 return True
         # It has not been started yet, or has ended.
         send(running.process.pid, signal.SIGKILL)
         return True
 
-    def wait_until_one_is_killed(self, running: Running) -> bool:
+    def wait_until_one_is_killed(self, running: BackgroundRun) -> bool:
         """The clock starts when mpiexec tells of it, or a rank less is there than before."""
         most = 0
         limit = time.monotonic() + 60
         while running.process.poll() is None and time.monotonic() < limit:
-            count = sum("OMPI_COMM_WORLD_RANK" in environment_of(pid) for pid in running.processes())
+            count = sum(rank_of(pid) != "" for pid in running.processes())
             if count < most:
                 break
             most = count
-            time.sleep(0.002)
+            time.sleep(0.01)
         return True
 
     def check_what_is_left(self, before: int, text: str) -> None:
@@ -206,9 +204,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cycles", type=int, default=200, help="kills, not counting those that come too late")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--at-once", action="store_true", help="mpiexec does not leave the other ranks a while to end")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="sphdrop-") as place:
-        cycles = Cycles(options.seed, Path(place))
+        cycles = Cycles(options.seed, Path(place), AT_ONCE if options.at_once else ())
         try:
             while cycles.kills() < options.cycles:
                 cycles.cycle()

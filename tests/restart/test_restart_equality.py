@@ -1,13 +1,12 @@
 """A run that stops at any step and goes on, on another number of ranks each time, leaves the same bytes as one that
 never stopped: every shipped case, and what no shipped case has.
 
-SPHDROP_RESTARTS=all in the environment makes five stops of each case instead of two.
+usage: test_restart_equality.py --full   every case with both forms of surface tension, stopped five times; prints a table
 """
 
 from __future__ import annotations
 
 import csv
-import os
 import random
 import re
 import shutil
@@ -19,11 +18,22 @@ from dataclasses import dataclass
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from running_program import ROOT, hashes_in, results, run  # noqa: E402
+from running_program import (  # noqa: E402
+    LONG,
+    ROOT,
+    case_files,
+    checkpoints,
+    results,
+    run,
+    state_hash,
+    step_of,
+    time_of_steps,
+)
 
-STOPS = 5 if os.environ.get("SPHDROP_RESTARTS") == "all" else 2
-STEPS = 300
 RANKS = (1, 3, 2)
+QUICKSTART = ROOT / "cases" / "quickstart" / "case.cfg"
+WALL = ROOT / "cases" / "rigid_wall" / "case.cfg"
+COARSE = "resolution.spacing=6.25e-5"
 
 
 @dataclass(frozen=True)
@@ -32,26 +42,85 @@ class Variant:
     case: Path
     settings: tuple[str, ...] = ()
 
+    def arguments(self) -> list[str | Path]:
+        """With a drop that touches within the few steps."""
+        settings = list(self.settings)
+        falls = re.search(r"^velocity = \[.*-", self.case.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        if falls and not any(setting.startswith(("drop.velocity", "solid.kind")) for setting in settings):
+            settings += ["drop.velocity=[0.3, -3.0]", "drop.gap=1e-7"]
+        return [self.case, *(word for setting in settings for word in ("--set", setting))]
 
-def case_file(name: str) -> Path:
-    return ROOT / "cases" / name / "case.cfg"
+
+@dataclass(frozen=True)
+class Outcome:
+    steps: int
+    stops: tuple[int, ...]  # the steps at which it stopped
+    touching: int  # particles, at most
+    differences: tuple[str, ...]
+
+    def row(self, name: str) -> str:
+        stops = ", ".join(map(str, self.stops))
+        return f"| {name} | {self.steps} | {stops} | {', '.join(self.differences) or 'yes'} |"
 
 
-def variants() -> list[Variant]:
-    found = [Variant(path.parent.name, path) for path in sorted((ROOT / "cases").glob("*/case.cfg"))]
-    quickstart, wall = case_file("quickstart"), case_file("rigid_wall")
-    coarse = "resolution.spacing=6.25e-5"
+def launch(variant: Variant, *arguments: str, ranks: int, directory: Path) -> str:
+    """The state's hash at the end."""
+    directory.mkdir(parents=True, exist_ok=True)
+    result = run(*variant.arguments(), "--output", "out", "--quiet", *arguments, ranks=ranks, directory=directory)
+    if result.returncode != 0:
+        raise AssertionError(f"{variant.name} {arguments}:\n{result.stdout}{result.stderr}")
+    return state_hash(result)
+
+
+def differences(whole: Path, stopped: Path) -> list[str]:
+    """The files that differ. Which checkpoints are left depends on when they were written; case.cfg has their interval."""
+    expected, found = (
+        {name: content for name, content in results(place / "out").items()
+         if not name.startswith("checkpoint_") and name != "case.cfg"} for place in (whole, stopped))
+    return sorted(name for name in set(expected) | set(found) if expected.get(name) != found.get(name))
+
+
+def compare(place: Path, variant: Variant, steps: int, stop_count: int, seed: int) -> Outcome:
+    """Stopped at random, and not stopped."""
+    whole, parts = place / "whole", place / "parts"
+    duration = time_of_steps(steps, *variant.arguments())
+    common = ["--set", f"time.end={duration:.6e}", "--set", f"output.snapshot_interval={duration / 5:.6e}",
+              "--set", f"output.history_interval={duration / 40:.6e}"]
+    # It writes checkpoints on its way, which must not matter, and the other does not.
+    expected = launch(variant, *common, "--set", f"checkpoint.interval={duration / 3:.6e}", ranks=1, directory=whole)
+    generator = random.Random(seed)
+    stops = []
+    for leg, end in enumerate([*sorted(generator.uniform(0.02, 0.98) * duration for _ in range(stop_count)), duration]):
+        going_on = ["--restart", "latest"] if leg > 0 else []
+        found = launch(variant, *common, *going_on, "--until", f"{end:.17g}", ranks=RANKS[leg % len(RANKS)], directory=parts)
+        stops.append(step_of(checkpoints(parts / "out")[-1]))
+    different = differences(whole, parts)
+    if found != expected:
+        different.insert(0, f"hash {found}, not {expected}")
+    rows = list(csv.DictReader((whole / "out" / "history.csv").read_text(encoding="utf-8").splitlines()))
+    if not (whole / "out" / "snapshot_000005.vtkhdf").exists() or stops[-1] < steps / 2:
+        raise AssertionError(f"{variant.name}: too short to tell anything")
+    return Outcome(stops[-1], tuple(stops[:-1]), max(int(float(row["contact_count [1]"])) for row in rows), tuple(different))
+
+
+def compare_all(place: Path, variants: list[Variant], steps: int, stop_count: int) -> list[Outcome]:
+    with ThreadPoolExecutor(max_workers=2) as pool:
+        futures = [pool.submit(compare, place / str(number), variant, steps, stop_count, number)
+                   for number, variant in enumerate(variants)]
+        return [future.result() for future in futures]
+
+
+def what_no_case_has() -> list[Variant]:
     return [
-        *found,
-        Variant("curvature form", quickstart, (coarse, "surface_tension.form='curvature'")),
-        Variant("no surface tension", quickstart, (coarse, "surface_tension.form='none'")),
-        Variant("rigid drop on a wall", wall, ("resolution.spacing=5e-5", "drop.material='rigid'", "drop.initial_spin=300.0",
-                                                  "drop.velocity=[0.1, -1.0]", "drop.gap=1e-7")),
-        Variant("no drop", quickstart,
-                (coarse, "drop.shape='none'", "drop.velocity=[0.0, 0.0]", "solid.initial_tip_velocity=0.1")),
-        Variant("no solid", quickstart, (coarse, "solid.kind='none'", "drop.oscillation_velocity=0.5")),
-        Variant("gravity and damping", quickstart,
-                (coarse, "gravity.acceleration=[0.5, -9.81]", "solid.damping_rate=20.0", "time.step=2.5e-8")),
+        Variant("curvature form", QUICKSTART, (COARSE, "surface_tension.form='curvature'")),
+        Variant("no surface tension", QUICKSTART, (COARSE, "surface_tension.form='none'")),
+        Variant("rigid drop on a wall", WALL, ("resolution.spacing=5e-5", "drop.material='rigid'", "drop.initial_spin=300.0",
+                                               "drop.velocity=[0.1, -1.0]", "drop.gap=1e-7")),
+        Variant("no drop", QUICKSTART,
+                (COARSE, "drop.shape='none'", "drop.velocity=[0.0, 0.0]", "solid.initial_tip_velocity=0.1")),
+        Variant("no solid", QUICKSTART, (COARSE, "solid.kind='none'", "drop.oscillation_velocity=0.5")),
+        Variant("gravity and damping", QUICKSTART,
+                (COARSE, "gravity.acceleration=[0.5, -9.81]", "solid.damping_rate=20.0", "time.step=2.5e-8")),
     ]
 
 
@@ -60,86 +129,41 @@ class RestartEquality(unittest.TestCase):
         self.directory = Path(tempfile.mkdtemp(prefix="sphdrop-"))
         self.addCleanup(shutil.rmtree, self.directory)
 
-    def settings(self, variant: Variant) -> list[str]:
-        """With a drop that touches within the few steps."""
-        all_of_them = list(variant.settings)
-        falls = re.search(r"^velocity = \[.*-", variant.case.read_text(encoding="utf-8"), flags=re.MULTILINE)
-        if falls and not any(setting.startswith(("drop.velocity", "solid.kind")) for setting in variant.settings):
-            all_of_them += ["drop.velocity=[0.3, -3.0]", "drop.gap=1e-7"]
-        return [word for setting in all_of_them for word in ("--set", setting)]
-
-    def launch(self, variant: Variant, *arguments: str, ranks: int, directory: Path) -> str:
-        directory.mkdir(exist_ok=True)
-        result = run(variant.case, *arguments, *self.settings(variant), ranks=ranks, directory=directory)
-        self.assertEqual(result.returncode, 0, f"{variant.name} {arguments}:\n{result.stdout}{result.stderr}")
-        return result.stdout
-
-    def compare(self, number: int, variant: Variant) -> int:
-        """Stopped and not stopped. Returns how many particles touched at most."""
-        place = self.directory / str(number)
-        place.mkdir()
-        found = re.search(r"^time step +([-+.e\d]+) ns", self.launch(variant, "--check", ranks=1, directory=place),
-                          flags=re.MULTILINE)
-        assert found is not None
-        duration = 1e-9 * float(found.group(1)) * STEPS
-        common = ["--output", "out", "--quiet", "--set", f"time.end={duration:.6e}",
-                  "--set", f"output.snapshot_interval={duration / 5:.6e}",
-                  "--set", f"output.history_interval={duration / 40:.6e}"]
-        # It writes checkpoints on its way, which must not matter, and the other does not.
-        whole = self.launch(variant, *common, "--set", f"checkpoint.interval={duration / 3:.6e}", ranks=1,
-                            directory=place / "whole")
-
-        generator = random.Random(number)
-        stops = sorted(generator.uniform(0.02, 0.98) * duration for _ in range(STOPS))
-        parts: list[str] = []
-        for leg in range(STOPS + 1):
-            arguments = [*common, "--restart", "latest"] if leg > 0 else list(common)
-            if leg < STOPS:
-                arguments += ["--until", f"{stops[leg]:.17g}"]
-            parts = hashes_in(self.launch(variant, *arguments, ranks=RANKS[leg % len(RANKS)], directory=place / "parts"))
-        self.assertEqual(len(parts), 1)
-        self.assertEqual(parts, hashes_in(whole), f"{variant.name} stopped at {stops}")
-
-        expected, stopped = results(place / "whole" / "out"), results(place / "parts" / "out")
-        # Which checkpoints are left depends on when they were written; case.cfg has their interval.
-        names = {name for name in expected if not name.startswith("checkpoint_") and name != "case.cfg"}
-        self.assertEqual(names, {name for name in stopped if not name.startswith("checkpoint_") and name != "case.cfg"})
-        self.assertIn("snapshot_000005.vtkhdf", names)
-        for name in sorted(names):
-            self.assertTrue(expected[name] == stopped[name], f"{variant.name}: {name} is another, stopped at {stops}")
-
-        rows = list(csv.DictReader(expected["history.csv"].decode().splitlines()))
-        self.assertGreater(float(rows[-1]["step [1]"]), STEPS / 2)
-        return max(int(float(row["contact_count [1]"])) for row in rows)
-
     def test_stopping_leaves_no_trace(self) -> None:
-        all_variants = variants()
-        with ThreadPoolExecutor(max_workers=2) as pool:
-            futures = [pool.submit(self.compare, *entry) for entry in enumerate(all_variants)]
-        touched = []
-        for variant, future in zip(all_variants, futures, strict=True):
+        variants = [*(Variant(path.parent.name, path) for path in case_files()), *what_no_case_has()]
+        outcomes = compare_all(self.directory, variants, steps=300 if LONG else 200, stop_count=5 if LONG else 2)
+        for variant, outcome in zip(variants, outcomes, strict=True):
             with self.subTest(case=variant.name):
-                if future.result() > 0:
-                    touched.append(variant.name)
+                self.assertEqual(outcome.differences, (), f"stopped at {outcome.stops}")
+        touched = [variant.name for variant, outcome in zip(variants, outcomes, strict=True) if outcome.touching > 0]
         self.assertGreaterEqual(len(touched), 6, f"the drop touched in {touched} only")
 
     def test_stopping_when_a_snapshot_is_due_and_after_the_first_step(self) -> None:
-        variant = Variant("quickstart", case_file("quickstart"), ("resolution.spacing=6.25e-5",))
-        common = ["--output", "out", "--quiet", "--set", "time.end=6e-6", "--set", "output.snapshot_interval=2e-6"]
-        whole = self.launch(variant, *common, ranks=2, directory=self.directory / "whole")
-        stopped = ""
+        variant = Variant("quickstart", QUICKSTART, (COARSE,))
+        common = ["--set", "time.end=6e-6", "--set", "output.snapshot_interval=2e-6"]
+        whole, parts = self.directory / "whole", self.directory / "parts"
+        expected = launch(variant, *common, ranks=2, directory=whole)
         for leg, until in enumerate(("1e-30", "2e-6", "4e-6", "4.0000001e-6", "6e-6", "6e-6")):
             going_on = [] if leg == 0 else ["--restart", "latest"]
-            stopped = self.launch(variant, *common, *going_on, "--until", until, ranks=RANKS[leg % 3],
-                                  directory=self.directory / "parts")
-        self.assertEqual(hashes_in(stopped), hashes_in(whole))
-        expected, found = (results(self.directory / name / "out") for name in ("whole", "parts"))
-        for name in [name for name in expected if not name.startswith("checkpoint_")]:
-            self.assertTrue(expected[name] == found[name], f"{name} is another")
+            found = launch(variant, *common, *going_on, "--until", until, ranks=RANKS[leg % 3], directory=parts)
+        self.assertEqual(found, expected)
+        self.assertEqual(differences(whole, parts), [])
         # Even the last checkpoint, by two ranks in one go and by three after five stops.
-        last = max(name for name in expected if name.startswith("checkpoint_"))
-        self.assertTrue(expected[last] == found[last], f"{last} is another")
+        last = checkpoints(whole / "out")[-1].name
+        self.assertTrue((whole / "out" / last).read_bytes() == (parts / "out" / last).read_bytes(), f"{last} is another")
+
+
+def full() -> int:
+    variants = [Variant(f"{path.parent.name} | {form}", path, (f"surface_tension.form='{form}'",))
+                for path in case_files() for form in ("conservative", "curvature")]
+    variants += [Variant(f"{variant.name} | -", variant.case, variant.settings) for variant in what_no_case_has()]
+    with tempfile.TemporaryDirectory(prefix="sphdrop-") as place:
+        outcomes = compare_all(Path(place), variants, steps=500, stop_count=5)
+    print("| case | form | steps | stopped after step | equal |\n|---|---|---|---|---|")
+    for variant, outcome in zip(variants, outcomes, strict=True):
+        print(outcome.row(variant.name))
+    return 0 if all(not outcome.differences for outcome in outcomes) else 1
 
 
 if __name__ == "__main__":
-    unittest.main()
+    sys.exit(full()) if sys.argv[1:] == ["--full"] else unittest.main()

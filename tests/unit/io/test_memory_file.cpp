@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "io/memory_file.hpp"
 
@@ -51,6 +52,30 @@ TEST_F(MemoryFiles, AreCopiedWithTheirHolesAndTheirSize) {
   expected.replace(3'000'001, long_text.size(), long_text);
   expected.replace(6'900'000, end.size(), end);
   EXPECT_TRUE(copied(memory) == expected);
+}
+
+TEST_F(MemoryFiles, LeaveAloneWhatTheTargetHasInTheirHoles) {
+  const MemoryFile memory;
+  write(memory, 8192, "text");
+  const std::string before(10'000, 'x');
+  EXPECT_EQ(copied(memory, before), before.substr(0, 8192) + "text");
+}
+
+TEST_F(MemoryFiles, MayMove) {
+  MemoryFile first;
+  write(first, 0, "first");
+  MemoryFile second = std::move(first);
+  EXPECT_EQ(copied(second), "first");
+  second = MemoryFile();
+  EXPECT_EQ(copied(second), "");
+}
+
+TEST_F(MemoryFiles, AreCopiedTwiceAndInBetweenWritten) {
+  const MemoryFile memory;
+  write(memory, 0, "one");
+  EXPECT_EQ(copied(memory), "one");
+  write(memory, 3, ", two");
+  EXPECT_EQ(copied(memory), "one, two");
 }
 
 TEST_F(MemoryFiles, TakeNoSpaceForWhatIsNotWritten) {
