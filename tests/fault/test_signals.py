@@ -115,7 +115,8 @@ class Signals(InterruptionTest):
                 self.stop(number, "rank 2")
 
     def test_each_to_mpiexec(self) -> None:
-        for number in STOPPING:
+        # SIGINT takes long and reaches the ranks as SIGTERM does.
+        for number in STOPPING if LONG else [number for number in STOPPING if number != signal.SIGINT]:
             with self.subTest(signal=number.name):
                 self.stop(number, "mpiexec")
 

@@ -16,6 +16,10 @@ from running_program import command_line
 Value = TypeVar("Value")
 
 
+def all_processes() -> set[int]:
+    return {int(name) for name in os.listdir("/proc") if name.isdigit()}
+
+
 def environment_of(pid: int) -> dict[str, str]:
     """What a process was started with; empty if it is gone."""
     try:
@@ -65,7 +69,7 @@ class BackgroundRun:
         self._files: list[IO[str]] = [tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") for _ in range(2)]
         self.mark = f"{os.getpid()}.{time.monotonic_ns()}"
         self.hung = False  # mpiexec, in its own end
-        self._others: set[int] = set()  # processes that do not belong to it, and never will
+        self._others = all_processes()  # that do not belong to it, and never will
         self.process = subprocess.Popen(
             command_line(*arguments, ranks=ranks, options=options), cwd=directory, stdout=self._files[0],
             stderr=self._files[1], stdin=subprocess.DEVNULL, start_new_session=True,
@@ -83,9 +87,13 @@ class BackgroundRun:
 
     def processes(self) -> list[int]:
         """mpiexec and all that came of it and lives."""
-        pids = {int(name) for name in os.listdir("/proc") if name.isdigit()} - self._others
-        own = {pid for pid in pids if environment_of(pid).get(self.MARK) == self.mark}
-        self._others |= pids - own
+        own = []
+        for pid in all_processes() - self._others:
+            environment = environment_of(pid)
+            if environment.get(self.MARK) == self.mark:
+                own.append(pid)
+            elif environment:  # there is none for a moment while a process becomes another program
+                self._others.add(pid)
         return sorted(pid for pid in own if state_of(pid) != "X")
 
     def rank(self, number: int) -> int:
