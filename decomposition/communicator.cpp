@@ -13,6 +13,8 @@
 namespace sphdrop {
 namespace {
 
+constexpr double longest_wait_for_others = 2;  // s
+
 bool mpi_is_finalized() {
   int finalized = 0;
   MPI_Finalized(&finalized);
@@ -156,7 +158,13 @@ PendingMaximum::~PendingMaximum() {
     MPI_Wait(&request_, MPI_STATUS_IGNORE);
     return;
   }
-  // The other ranks may never get here: waiting for them would hide the error that ends this one. MPI may still write.
+  // Of an error that all ranks have together they all come here, and what is under way ends; left alone it would crash
+  // MPI_Finalize. If the error is this rank's own, the others may never come, and waiting would hide it.
+  int done = 0;
+  for (const double limit = MPI_Wtime() + longest_wait_for_others; done == 0 && MPI_Wtime() < limit;)
+    MPI_Test(&request_, &done, MPI_STATUS_IGNORE);
+  if (done != 0) return;
+  // MPI may still write.
   static std::list<std::vector<double>> abandoned;
   abandoned.push_back(std::move(values_));
   abandoned.push_back(std::move(maxima_));

@@ -6,7 +6,8 @@
 namespace sphdrop {
 
 /// Catches SIGTERM, SIGINT, SIGUSR1 and SIGUSR2 from now on: the last one that came is remembered, nothing else
-/// happens. Call after MPI_Init, which may install handlers of its own.
+/// happens. Call before MPI_Init, which takes a while and leaves these alone, lest one that comes early ends the
+/// program.
 void catch_stop_signals();
 
 /// The signal that came last; 0 if none did.

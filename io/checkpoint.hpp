@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -115,13 +114,8 @@ struct LatestCheckpoint {
   std::vector<std::string> refused;
 };
 
-/// Says what speaks against going on from a checkpoint that can be read ("is of another case: ..."); empty if nothing
-/// does. Called on all ranks.
-using CheckpointObjection = std::function<std::string(const Checkpoint&)>;
-
-/// Collective. The newest checkpoint in the directory that can be read and meets no objection. Throws CheckpointError
-/// on all ranks if there is none.
-LatestCheckpoint read_latest_checkpoint(const Communicator& communicator, const std::filesystem::path& directory,
-                                        const CheckpointObjection& objection = {});
+/// Collective. The newest checkpoint in the directory that can be read. Throws CheckpointError on all ranks if there is
+/// none.
+LatestCheckpoint read_latest_checkpoint(const Communicator& communicator, const std::filesystem::path& directory);
 
 }  // namespace sphdrop

@@ -74,17 +74,12 @@ Checkpoint read_checkpoint(const Communicator& communicator, const std::filesyst
   return checkpoint;
 }
 
-LatestCheckpoint read_latest_checkpoint(const Communicator& communicator, const std::filesystem::path& directory,
-                                        const CheckpointObjection& objection) {
+LatestCheckpoint read_latest_checkpoint(const Communicator& communicator, const std::filesystem::path& directory) {
   LatestCheckpoint latest;
   const auto paths = find_collectively(communicator, directory);
   for (const auto& path : paths) {
     try {
       latest.checkpoint = read_checkpoint(communicator, path);
-      collectively<CheckpointError>(communicator, [&] {
-        const std::string reason = objection ? objection(latest.checkpoint) : std::string();
-        if (!reason.empty()) throw CheckpointError(fmt::format("{} {}", path.string(), reason));
-      });
       return latest;
     } catch (const CheckpointError& error) {
       latest.refused.emplace_back(error.what());

@@ -12,6 +12,9 @@
 
 namespace sphdrop {
 
+/// What the program returns if results cannot be written, also where all that is left is to end it by MPI_Abort.
+inline constexpr int unwritable_output_exit_code = 4;
+
 /// An error that has been thrown on all ranks, with one text: all of them stand at the same place when it is caught.
 class CollectiveError : public std::runtime_error {
  public:

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <system_error>
 
 #include "io/collective_error.hpp"
+#include "io/memory_file.hpp"
 #include "io/posix_file.hpp"
 
 namespace sphdrop {
@@ -28,8 +28,10 @@ std::int64_t bytes_needed(const DurableHdf5& plan) {
   return bytes;
 }
 
-void write_structure(const std::string& path, const DurableHdf5& plan) {
+MemoryFile make_structure(const std::string& path, const DurableHdf5& plan) {
+  MemoryFile memory;
   Hdf5File file = Hdf5File::create(path, plan.user_block);
+  file.redirect(memory.descriptor());
   plan.write_structure(file);
   for (const DatasetRows& dataset : plan.datasets) {
     file.create_dataset(dataset.path, dataset.type, dataset.total_rows, dataset.components);
@@ -37,16 +39,17 @@ void write_structure(const std::string& path, const DurableHdf5& plan) {
     file.write_attribute(dataset.path, "description", std::string_view(dataset.description));
   }
   file.close();
+  return memory;
 }
 
-/// A full disk must show before anything is written: with HDF5 it may show as success, and with MPI-IO as a hang.
-/// Creating the file gives back what was reserved before, so the space is taken again for the values.
+/// A full disk must show before anything is written: with HDF5 it may show as success, and with MPI-IO as a hang. The
+/// structure is made in memory, since a file that HDF5 cannot write crashes it at the end of the program.
 void prepare_file(const std::string& path, const DurableHdf5& plan) {
-  const std::int64_t bytes = bytes_needed(plan);
-  FileDescriptor(path, O_WRONLY | O_CREAT | O_TRUNC).close();
-  reserve_space(path, bytes);
-  write_structure(path, plan);
-  reserve_space(path, bytes);
+  const MemoryFile structure = make_structure(path, plan);
+  reserve_space(path, bytes_needed(plan));
+  FileDescriptor file(path, O_WRONLY);
+  structure.copy_to(file);
+  file.close();
 }
 
 /// Whether the superblock can be written again (with the same bytes).
@@ -72,11 +75,13 @@ void stop_unless_closable(const Communicator& communicator, const std::string& p
     std::fflush(stderr);
   }
   communicator.barrier();
-  MPI_Abort(communicator.handle(), EXIT_FAILURE);
+  MPI_Abort(communicator.handle(), unwritable_output_exit_code);
 }
 
 void write_values(const Communicator& communicator, const std::string& path, const DurableHdf5& plan) {
   std::optional<Hdf5File> file;
+  // Where only some of the ranks can open the file, Open MPI hangs.
+  collectively<CollectiveError>(communicator, [&] { FileDescriptor(path, O_RDWR).close(); });
   collectively<CollectiveError>(communicator, [&] { file.emplace(Hdf5File::open_collectively(communicator, path)); });
   try {
     for (const DatasetRows& data : plan.datasets) {

@@ -1,13 +1,17 @@
 #include "io/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
+#include <system_error>
 #include <utility>
 
+#include "io/collective_error.hpp"
 #include "io/hdf5_call.hpp"
 
 namespace sphdrop {
@@ -143,6 +147,13 @@ Hdf5File Hdf5File::create(const std::string& path, std::int64_t user_block) {
   return {path, std::move(file), MPI_COMM_NULL};
 }
 
+void Hdf5File::redirect(int descriptor) {
+  void* own = nullptr;
+  checked(H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &own), "H5Fget_vfd_handle", path_);
+  if (::dup3(descriptor, *static_cast<const int*>(own), O_CLOEXEC) < 0)
+    throw Hdf5Error(fmt::format("{}: dup3: {}", path_, std::generic_category().message(errno)));
+}
+
 Hdf5File Hdf5File::open_collectively(const Communicator& communicator, const std::string& path) {
   silence_error_printing();
   const Hdf5Handle access = property_list(H5P_FILE_ACCESS, path);
@@ -173,7 +184,7 @@ void Hdf5File::close() {
   if (communicator_ == MPI_COMM_NULL) throw Hdf5Error(text);
   fmt::print(stderr, "error: {}\nThe file is incomplete and MPI-IO in an undefined state; stopping.\n", text);
   std::fflush(stderr);
-  MPI_Abort(communicator_, EXIT_FAILURE);
+  MPI_Abort(communicator_, unwritable_output_exit_code);
 }
 
 std::string Hdf5File::describe(const std::string& object) const {

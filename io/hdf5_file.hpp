@@ -81,6 +81,8 @@ class Hdf5File {
   /// With the serial driver, by one rank; replaces the file. For the structure: groups, attributes, datasets without
   /// their values. The first `user_block` bytes (0 or a power of two from 512 on) are left to the caller.
   static Hdf5File create(const std::string& path, std::int64_t user_block = 0);
+  /// Right after create(): whatever HDF5 writes goes to this open file instead, and nothing to the path.
+  void redirect(int descriptor);
   /// Collective. To write values into existing datasets. The structure must stay as it is: with none of HDF5's own data
   /// to write but the superblock, which has its place on the disk, closing works even if the values did not fit.
   static Hdf5File open_collectively(const Communicator& communicator, const std::string& path);

@@ -31,6 +31,9 @@ FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags) : p
   if (descriptor_ < 0) throw_system_error(errno, "open", path);
 }
 
+FileDescriptor::FileDescriptor(std::filesystem::path path, Owned open_file)
+    : path_(std::move(path)), descriptor_(open_file.descriptor) {}
+
 FileDescriptor::~FileDescriptor() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }

@@ -15,6 +15,11 @@ class FileDescriptor {
  public:
   /// open(2) with these flags, mode 0666.
   FileDescriptor(const std::filesystem::path& path, int flags);
+  /// Takes over one that is open; the path is for messages.
+  struct Owned {
+    int descriptor;
+  };
+  FileDescriptor(std::filesystem::path path, Owned open_file);
   ~FileDescriptor();
   FileDescriptor(FileDescriptor&& other) noexcept;
   FileDescriptor& operator=(FileDescriptor&& other) noexcept;

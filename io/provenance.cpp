@@ -71,8 +71,7 @@ JsonObject ranks_by_host(const std::vector<std::string>& hosts) {
 }  // namespace
 
 RunRecord::RunRecord(const Communicator& communicator, std::vector<std::string> command_line)
-    : rank_(communicator.rank()),
-      ranks_(communicator.size()),
+    : ranks_(communicator.size()),
       hosts_(host_names(communicator)),
       command_line_(std::move(command_line)),
       start_(std::chrono::system_clock::now()),
@@ -120,8 +119,10 @@ std::string RunRecord::json() const {
   return record.text() + '\n';
 }
 
-void RunRecord::write(const std::filesystem::path& directory) const {
-  if (rank_ == 0) write_file_atomically(directory / "run.json", json());
+void RunRecord::write(const Communicator& communicator, const std::filesystem::path& directory) const {
+  collectively<RunRecordError>(communicator, [&] {
+    if (communicator.rank() == 0) write_file_atomically(directory / "run.json", json());
+  });
 }
 
 }  // namespace sphdrop

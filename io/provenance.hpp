@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "decomposition/communicator.hpp"
+#include "io/collective_error.hpp"
 #include "io/json.hpp"
 
 namespace sphdrop {
@@ -22,6 +23,12 @@ struct BuildInfo {
   std::string architecture;  ///< as for -march
 };
 const BuildInfo& build_info();
+
+/// run.json could not be written.
+class RunRecordError : public CollectiveError {
+ public:
+  using CollectiveError::CollectiveError;
+};
 
 /// The record of one run, kept by all ranks and written by rank 0. Written at the start it says "running", which is
 /// what remains of a run that was killed.
@@ -42,11 +49,10 @@ class RunRecord {
   void finish(std::string_view status);
 
   std::string json() const;
-  /// Rank 0 (others do nothing): writes json() to `directory`/run.json atomically. Throws std::system_error.
-  void write(const std::filesystem::path& directory) const;
+  /// Collective: rank 0 writes json() to `directory`/run.json atomically. Throws RunRecordError on all ranks.
+  void write(const Communicator& communicator, const std::filesystem::path& directory) const;
 
  private:
-  int rank_;
   int ranks_;
   std::vector<std::string> hosts_;  ///< one a rank
   std::vector<std::string> command_line_;

@@ -25,6 +25,7 @@
 int main(int argc, char** argv) {
   using namespace sphdrop;
   const auto start = std::chrono::steady_clock::now();
+  catch_stop_signals();
   MpiEnvironment environment(argc, argv);
   const Communicator communicator(MPI_COMM_WORLD);
   const CommandLine command = parse_command_line(argc, argv);
@@ -42,7 +43,6 @@ int main(int argc, char** argv) {
     return static_cast<int>(code);
   };
   try {
-    catch_stop_signals();
     return run_case(communicator, command, {argv, argv + argc}, start);
   } catch (const CaseError& error) {
     return fail(user_error, error);
@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
   } catch (const SnapshotError& error) {
     return fail(output_error, error);
   } catch (const HistoryError& error) {
+    return fail(output_error, error);
+  } catch (const RunRecordError& error) {
     return fail(output_error, error);
   } catch (const std::exception& error) {
     fmt::print(stderr, "sphdrop: rank {}: internal error: {}\n", communicator.rank(), error.what());

@@ -29,6 +29,7 @@ Checkpointer::Checkpointer(Simulation& simulation, Recorder& recorder, const Che
     : simulation_(simulation),
       recorder_(recorder),
       options_(options),
+      last_checkpoint_(options.restarted_from),
       next_time_(next_multiple(simulation.time(), simulation.input().checkpoint.interval)) {
   const double interval = simulation.input().checkpoint.wall_interval;
   next_wall_ = interval > 0 ? seconds_since_start() + interval : infinity;

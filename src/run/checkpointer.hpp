@@ -16,6 +16,7 @@ struct CheckpointerOptions {
   std::string version, git_commit;              ///< of the program
   std::chrono::steady_clock::time_point start;  ///< of the program
   std::optional<double> walltime_limit;         ///< from that start on, s; the run stops in good time before
+  std::filesystem::path restarted_from;         ///< empty in a run from the beginning
 };
 
 /// In a step: wish() goes to Simulation::move(), act() comes after Simulation::settle(). A wish of one rank becomes

@@ -1,6 +1,8 @@
 #pragma once
 // What the program tells whoever started it.
 
+#include "io/collective_error.hpp"
+
 namespace sphdrop {
 
 enum ExitCode : int {
@@ -8,7 +10,7 @@ enum ExitCode : int {
   internal_error = 1,
   user_error = 2,
   unsafe_state = 3,
-  output_error = 4,
+  output_error = unwritable_output_exit_code,
   interrupted = 5  // stopped in good order: go on with --restart latest
 };
 

@@ -115,7 +115,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     record.set("restarted_from", restart->checkpoint.path.filename().string());
     record.set("restarted_at_step", restart->checkpoint.header.step);
   }
-  record.write(directory);
+  record.write(communicator, directory);
 
   Simulation simulation(communicator, input, initial.fluid, initial.solid);
   if (restart) taking_up([&] { simulation.restore(restart->checkpoint); });
@@ -128,9 +128,9 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
                                                 : Progress::Mode::log;
   Recorder recorder =
       taking_up([&] { return Recorder(simulation, options, restart ? &restart->checkpoint : nullptr); });
-  Checkpointer checkpointer(
-      simulation, recorder,
-      {directory, version_text(), build_info().git_commit, start, walltime_limit(command, start)});
+  Checkpointer checkpointer(simulation, recorder,
+                            {directory, version_text(), build_info().git_commit, start, walltime_limit(command, start),
+                             restart ? restart->checkpoint.path : std::filesystem::path()});
   restart.reset();
   try {
     for (;;) {
@@ -138,7 +138,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
       if (const std::string why = checkpointer.act(); !why.empty()) {
         recorder.interrupt();
         record.finish("interrupted: " + why);
-        record.write(directory);
+        record.write(communicator, directory);
         say(communicator, stderr,
             fmt::format("sphdrop: {}: stopped at step {}, t = {:.6g} s. To go on: --restart latest ({})\n", why,
                         simulation.step(), simulation.time(), checkpointer.last_checkpoint().string()));
@@ -153,9 +153,14 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     }
   } catch (const SafetyError& error) {
     const std::string last = recorder.last_snapshot().string();
+    std::string text = fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last);
     record.finish(std::string("stopped: ") + error.what());
-    record.write(directory);
-    throw SafetyError(fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last));
+    try {
+      record.write(communicator, directory);
+    } catch (const RunRecordError& loss) {
+      text += fmt::format("\nwarning: {}", loss.what());
+    }
+    throw SafetyError(text);
   }
   const std::uint64_t hash = recorder.finish();
   const RunSummary summary = recorder.summary();
@@ -165,7 +170,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
   record.set("load_imbalance", summary.load_imbalance);
   for (const PhaseTime& phase : summary.phases) record.set("seconds in " + phase.name, phase.seconds);
   record.finish("completed", hash);
-  record.write(directory);
+  record.write(communicator, directory);
   say(communicator, stdout, command.quiet ? fmt::format("state hash {:016x}\n", hash) : summary_text(summary));
   return success;
 }

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 namespace sphdrop {
 namespace {
@@ -98,6 +99,19 @@ TEST(PendingMaximum, IsTheMaximumTimeAfterTime) {
     EXPECT_EQ(maxima[2], 7);
     if (count > 3) {
       EXPECT_EQ(maxima[3], step * last);
+    }
+  }
+}
+
+// What was left under way would crash MPI_Finalize at the end of this program.
+TEST(PendingMaximum, EndsWhenAllRanksLeaveByAnError) {
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    try {
+      const Communicator communicator(MPI_COMM_WORLD);
+      PendingMaximum pending(communicator);
+      pending.start(std::vector<double>{1.0});
+      throw std::runtime_error("of all ranks");
+    } catch (const std::runtime_error&) {
     }
   }
 }

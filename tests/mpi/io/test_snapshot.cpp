@@ -312,15 +312,20 @@ TEST_F(Snapshot, OutputDirectoryIsRefusedOnAllRanksAlike) {
   EXPECT_NE(text.find("is a file; remove it"), std::string::npos) << text;
 }
 
+TEST_F(Snapshot, RunRecordThatCannotBeWrittenIsToldOnAllRanks) {
+  const RunRecord record(world_, {"sphdrop"});
+  EXPECT_THROW(record.write(world_, directory_ / "missing"), RunRecordError);
+}
+
 TEST_F(Snapshot, RunRecordSaysWhatIsKnown) {
   RunRecord record(world_, {"sphdrop", "a \"quoted\" case.cfg"});
-  record.write(directory_);
+  record.write(world_, directory_);
   world_.barrier();
   EXPECT_NE(bytes_of(directory_ / "run.json").find("\"status\": \"running\""), std::string::npos);
   world_.barrier();
   record.set("repartitions", std::int64_t{3});
   record.finish("completed", 0xfedcULL);
-  record.write(directory_);
+  record.write(world_, directory_);
   world_.barrier();
   const std::string text = bytes_of(directory_ / "run.json");
   for (const std::string& part :

@@ -51,7 +51,7 @@ void write_run(const Communicator& world, const std::filesystem::path& directory
   }
   record.set("particles", total);
   record.finish("completed", 0xfeedbeef00000002ULL);
-  record.write(directory);
+  record.write(world, directory);
 }
 
 }  // namespace

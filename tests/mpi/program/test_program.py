@@ -2,60 +2,22 @@
 
 from __future__ import annotations
 
-import os
-import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "io"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+import running_program  # noqa: E402
+from running_program import MISTAKE, UNSAFE, little_case, run, state_hash  # noqa: E402
 from sphdrop_reader import Run  # noqa: E402
 
-PROGRAM = os.environ["SPHDROP_PROGRAM"]
-MPIEXEC = os.environ["SPHDROP_MPIEXEC"]
-
-CASE = """
-name = "little"
-[resolution]
-spacing = 0.0625e-3
-[time]
-end = 8e-6
-sound_cfl = 0.3
-[drop]
-diameter = 0.6e-3
-velocity = [0.2, -3.0]
-gap = 1e-6
-[solid]
-kind = "cantilever"
-length = 2e-3
-[output]
-snapshot_interval = 4e-6
-history_interval = 1e-6
-"""
+CASE = little_case(end=8e-6, snapshot_interval=4e-6)
 
 
-def run(*arguments: str | Path, ranks: int = 1, directory: Path | None = None) -> subprocess.CompletedProcess[str]:
-    command = ["timeout", "-k", "5", "60", MPIEXEC, "-n", str(ranks), PROGRAM, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, cwd=directory, check=False)
-
-
-def state_hash(result: subprocess.CompletedProcess[str]) -> str:
-    found = re.findall(r"^state hash ([0-9a-f]{16})$", result.stdout, flags=re.MULTILINE)
-    if len(found) != 1:
-        raise AssertionError(f"no single hash in:\n{result.stdout}\n{result.stderr}")
-    return found[0]
-
-
-class ProgramTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.directory = Path(tempfile.mkdtemp(prefix="sphdrop-"))
-        self.addCleanup(shutil.rmtree, self.directory)
-        self.case = self.directory / "little.cfg"
-        self.case.write_text(CASE)
+class ProgramTest(running_program.ProgramTest):
+    case_text = CASE
 
 
 class Results(ProgramTest):
@@ -140,34 +102,33 @@ class Checking(ProgramTest):
 class Mistakes(ProgramTest):
     def expect_refusal(self, result: subprocess.CompletedProcess[str], code: int, *parts: str) -> None:
         self.assertEqual(result.returncode, code, result.stderr)
-        for part in parts:
-            self.assertEqual(result.stderr.count(part), 1, f"{part!r} is not said once in:\n{result.stderr}")
+        self.assert_said_once(result, *parts)
 
     def test_in_the_case(self) -> None:
         self.case.write_text(CASE.replace("diameter = 0.6e-3", "diametre = 0.6e-3"))
         for ranks in (1, 3):
             result = run(self.case, ranks=ranks)
-            self.expect_refusal(result, 2, "little.cfg:9: ", "drop.diametre", "drop.diameter")
+            self.expect_refusal(result, MISTAKE, "little.cfg:9: ", "drop.diametre", "drop.diameter")
 
     def test_in_the_command_line(self) -> None:
-        self.expect_refusal(run("--chekc", self.case, ranks=3), 2, "--chekc")
-        self.expect_refusal(run(self.case, "--set", "drop.gap=-1", ranks=3), 2, "--set drop.gap=-1")
+        self.expect_refusal(run("--chekc", self.case, ranks=3), MISTAKE, "--chekc")
+        self.expect_refusal(run(self.case, "--set", "drop.gap=-1", ranks=3), MISTAKE, "--set drop.gap=-1")
 
     def test_a_case_that_is_not_there(self) -> None:
-        self.expect_refusal(run(self.directory / "nothing.cfg", ranks=3), 2, "nothing.cfg")
+        self.expect_refusal(run(self.directory / "nothing.cfg", ranks=3), MISTAKE, "nothing.cfg")
 
     def test_a_drop_in_the_beam(self) -> None:
-        self.expect_refusal(run(self.case, "--set", "drop.centre_x=0.0", ranks=3), 2, "clamp")
+        self.expect_refusal(run(self.case, "--set", "drop.centre_x=0.0", ranks=3), MISTAKE, "clamp")
 
     def test_results_that_have_no_place(self) -> None:
         blocked = self.directory / "file"
         blocked.write_text("not a folder")
-        self.expect_refusal(run(self.case, "--output", blocked / "out", ranks=3), 2, "is a file; remove it")
+        self.expect_refusal(run(self.case, "--output", blocked / "out", ranks=3), MISTAKE, "is a file; remove it")
 
     def test_results_that_would_replace_the_case(self) -> None:
         own = self.directory / "case.cfg"
         own.write_text(CASE)
-        self.expect_refusal(run(own, "--output", self.directory, ranks=2), 2, "would replace the case file")
+        self.expect_refusal(run(own, "--output", self.directory, ranks=2), MISTAKE, "would replace the case file")
         self.assertEqual(own.read_text(), CASE)
         # An effective case may run again where it lies: it is replaced by itself.
         run(own, "--output", self.directory / "out")
@@ -176,7 +137,7 @@ class Mistakes(ProgramTest):
 
     def test_a_state_that_is_not_sound(self) -> None:
         result = run(self.case, "--output", self.directory / "out", "--set", "safety.speed_limit=2", ranks=3)
-        self.expect_refusal(result, 3, "safety.speed_limit is 2", "Last good snapshot: ", "snapshot_000000.vtkhdf")
+        self.expect_refusal(result, UNSAFE, "safety.speed_limit is 2", "Last good snapshot: ", "snapshot_000000.vtkhdf")
         self.assertIn("stopped", (self.directory / "out" / "run.json").read_text())
 
 
