@@ -18,7 +18,7 @@ NEGLIGIBLE = 5e-3
 COLOURS = {
     "kinetic_fluid": LINES[0], "kinetic_solid": LINES[6], "elastic": LINES[2], "compressive": LINES[3],
     "surface": LINES[4], "contact": LINES[7], "gravity": "#8c6d46", "dissipated_fluid": LINES[1], "dissipated_solid": "#e58a7b",
-    "density_correction": "#4b5fd1", "artificial_stress_work": "#7a8f2f", "reconnection": LINES[5],
+    "dissipated_contact": "#b5651d", "density_correction": "#4b5fd1", "artificial_stress_work": "#7a8f2f", "reconnection": LINES[5],
 }
 
 
@@ -39,7 +39,7 @@ def draw_energies(axes: Axes, run: Run, is_small: bool = False) -> None:
     for name, values in _changes(run).items():
         label = labels[name] + (", change" if name in ("surface", "gravity") else "")
         axes.plot(time, values, color=COLOURS[name], label=label, linewidth=width, linestyle="--" if name in INJECTED else "-")
-    balance = (column(run, "total") + column(run, "dissipated_fluid") + column(run, "dissipated_solid")
+    balance = (column(run, "total") + sum(column(run, name) for name in DISSIPATED)
                - sum(column(run, name) for name in INJECTED))
     start = column(run, "surface")[0] + column(run, "gravity")[0]
     axes.plot(time, (balance - start) * MILLI, color="black", linewidth=width, label="sum (stored + dissipated - put in)")

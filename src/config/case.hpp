@@ -12,6 +12,7 @@ enum class DropArrangement { rings, lattice };
 enum class DropMaterial { liquid, rigid };
 enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall };
 enum class DeviatoricTrace { plane_strain, two_dimensional };
+enum class ContactStiffness { time_step, fixed };
 enum class SurfaceTensionForm { none, conservative, curvature };
 
 /// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
@@ -87,7 +88,10 @@ struct Case {
   } solid;
 
   struct Contact {
-    double stiffness = 0;       ///< Eq 24's 0.1
+    ContactStiffness stiffness_form = ContactStiffness::time_step;
+    double stiffness = 0;       ///< time_step: Eq 24's 0.1; fixed: k_n over contact_modulus()
+    double damping_ratio = 0;   ///< of a particle's normal motion; 1: critical
+    double wall_drag = 0;       ///< of the motion along the wall, in units of nu/d^2
     double distance_ratio = 0;  ///< d0/d
     double overlap_limit = 0;   ///< d0 - d_p at which the run stops, in units of d0
     bool operator==(const Contact&) const = default;
@@ -133,6 +137,14 @@ struct Case {
     double domain_margin = 0;  ///< m: a particle farther than this outside the box of the initial particles is lost
     bool operator==(const Safety&) const = default;
   } safety;
+
+  /// Pa, of which contact.stiffness is a share where it is fixed: rho c^2 of the body that yields, the liquid; with a
+  /// rigid drop the beam; where neither yields, of the liquid all the same, which sets the time step there too.
+  double contact_modulus() const {
+    const bool has_beam = solid.kind == SolidKind::cantilever || solid.kind == SolidKind::fixed_fixed_beam;
+    if (drop.is_rigid() && has_beam) return solid.youngs_modulus / (3.0 * (1.0 - 2.0 * solid.poisson_ratio));
+    return fluid.density * fluid.sound_speed * fluid.sound_speed;
+  }
 
   bool operator==(const Case&) const = default;
 };

@@ -53,6 +53,8 @@ class ContactStep {
   Vector impulse() const { return impulse_; }
   /// At the owner: likewise the angular impulse about the origin, N m s/m.
   double angular_impulse() const { return angular_impulse_; }
+  /// At the owner: heat made by dampers and drag up to the instant last worked on, J/m.
+  double dissipated_energy() const { return dissipated_energy_; }
   /// At the owner: whether an overlap is beyond the limit, and the global id of the deepest particle (-1: none).
   bool overlap_is_too_deep() const { return summary_.overlap_is_too_deep(parameters(1.0)); }
   std::int64_t deepest_particle() const;
@@ -65,12 +67,14 @@ class ContactStep {
 
  private:
   ContactParameters parameters(double step) const;
+  void receive();
   void move_record(int new_owner);
   void accelerate_liquid(FluidParticles& fluid);
   void share_load();
 
   const Communicator& communicator_;
-  double stiffness_, contact_distance_, overlap_limit_;
+  ContactParameters parameters_;
+  double time_step_stiffness_;  // Eq 24's 0.1; 0 where the springs are fixed
   bool drop_is_rigid_;
   std::vector<std::int64_t> vertex_ids_;  // ascending; a vertex' index is its place here
   std::vector<Segment> segments_;
@@ -89,8 +93,10 @@ class ContactStep {
   ContactRecord record_;
   Vector impulse_, last_force_;
   double staggered_angular_impulse_ = 0, angular_impulse_ = 0, last_moment_ = 0;
+  double dissipated_energy_ = 0, last_dissipation_ = 0;
   std::vector<double> fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_;
   std::vector<double> vertex_x_, vertex_y_, force_x_, force_y_;
+  std::vector<double> fluid_velocity_x_, fluid_velocity_y_, vertex_velocity_x_, vertex_velocity_y_;
 };
 
 }  // namespace sphdrop

@@ -197,8 +197,9 @@ void observe_contact(const Simulation& simulation, Observation& o) {
   if (simulation.communicator().rank() == contact.owner()) {
     const ContactSummary& s = contact.summary();
     const Vector impulse = contact.impulse();
-    numbers = {static_cast<double>(s.count), s.force_on_solid.x, s.force_on_solid.y, impulse.x, impulse.y, s.energy,
-               contact.angular_impulse()};
+    numbers = {
+        static_cast<double>(s.count), s.force_on_solid.x,         s.force_on_solid.y, impulse.x, impulse.y, s.energy,
+        contact.angular_impulse(),    contact.dissipated_energy()};
   }
   simulation.communicator().broadcast(numbers, contact.owner());
   o.contact_count = numbers[0];
@@ -208,6 +209,7 @@ void observe_contact(const Simulation& simulation, Observation& o) {
   o.contact_impulse_y = numbers[4];
   o.contact = numbers[5];
   o.contact_angular_impulse = numbers[6];
+  o.dissipated_contact = numbers[7];
 }
 
 }  // namespace
@@ -241,8 +243,8 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.density_correction = sum[fluid_correction];
   o.artificial_stress_work = sum[solid_artificial];
   o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.contact + o.gravity;
-  o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid - o.density_correction - o.artificial_stress_work -
-                  o.reconnection - initial_total;
+  o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid + o.dissipated_contact - o.density_correction -
+                  o.artificial_stress_work - o.reconnection - initial_total;
   o.momentum_fluid_x = sum[fluid_momentum_x];
   o.momentum_fluid_y = sum[fluid_momentum_y];
   o.momentum_solid_x = sum[solid_momentum_x];

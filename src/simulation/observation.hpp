@@ -21,7 +21,8 @@ struct Observation {
   double contact_count, contact_force_x, contact_force_y, contact_impulse_x, contact_impulse_y;
   double contact_angular_impulse;
   double kinetic_fluid, kinetic_solid, elastic, compressive, surface, contact, gravity;
-  double dissipated_fluid, dissipated_solid, density_correction, artificial_stress_work, reconnection;
+  double dissipated_fluid, dissipated_solid, dissipated_contact, density_correction, artificial_stress_work,
+      reconnection;
   double total, unaccounted;
   double momentum_fluid_x, momentum_fluid_y, momentum_solid_x, momentum_solid_y;
   double angular_momentum_fluid, angular_momentum_solid;

@@ -47,6 +47,8 @@ std::span<const ObservedQuantity> observed_quantities() {
       {"gravity", "J/m", "potential energy in the field of gravity", &O::gravity},
       {"dissipated_fluid", "J/m", "heat made by the liquid's viscosity so far", &O::dissipated_fluid},
       {"dissipated_solid", "J/m", "heat made by the solid's viscosity and damping so far", &O::dissipated_solid},
+      {"dissipated_contact", "J/m", "heat made by the contact's damping and the wall's drag so far",
+       &O::dissipated_contact},
       {"density_correction", "J/m", "compressive energy added by the density correction so far",
        &O::density_correction},
       {"artificial_stress_work", "J/m", "work of the artificial stress so far", &O::artificial_stress_work},

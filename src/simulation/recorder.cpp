@@ -270,6 +270,8 @@ RunSummary Recorder::summary() const {
       term("artificial stress", &Observation::artificial_stress_work, -1.0);
     }
     if (r.contact) term("contact", &Observation::contact);
+    if (r.contact && (c.contact.damping_ratio > 0 || c.contact.wall_drag > 0))
+      term("dissipated, contact", &Observation::dissipated_contact);
     if (c.gravity.x != 0 || c.gravity.y != 0) term("gravity", &Observation::gravity);
     r.initial_kinetic_energy = first_->kinetic_fluid + first_->kinetic_solid;
   }
