@@ -32,7 +32,7 @@ PANELS = [
                              "contact": "contact", "compressive": "compressive",
                              "dissipated_fluid": "dissipated, drop", "dissipated_solid": "dissipated, solid",
                              "dissipated_contact": "dissipated, contact"}, MILLI),
-    Panel("energy since the start  (mJ/m)", {"surface": "surface", "total": "total", "gravity": "gravity",
+    Panel("energy since the start  (mJ/m)", {"surface": "surface", "adhesion": "adhesion", "total": "total", "gravity": "gravity",
                                              "density_correction": "density correction",
                                              "reconnection": "curves detected anew"}, MILLI, "start"),
 ]

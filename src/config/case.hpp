@@ -100,6 +100,7 @@ struct Case {
   struct SurfaceTension {
     SurfaceTensionForm form = SurfaceTensionForm::conservative;
     double coefficient = 0;              ///< sigma, N/m
+    double contact_angle = 0;            ///< theta, degrees; at 180 the solid does not attract the liquid
     std::int64_t polynomial_points = 0;  ///< 3 or 5, Eq 28
     double detection_displacement =
         0;  ///< in units of d: the curve's connectivity is kept until a particle has moved so far
@@ -145,6 +146,9 @@ struct Case {
     if (drop.is_rigid() && has_beam) return solid.youngs_modulus / (3.0 * (1.0 - 2.0 * solid.poisson_ratio));
     return fluid.density * fluid.sound_speed * fluid.sound_speed;
   }
+
+  /// Whether the solid attracts the liquid.
+  bool is_wetting() const { return surface_tension.contact_angle < 180.0; }
 
   bool operator==(const Case&) const = default;
 };

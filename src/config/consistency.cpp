@@ -185,6 +185,18 @@ Verdict step_too_large(const Case& values) {
       values.time.step, bound.step, bound.equation);
 }
 
+Verdict contact_angle_without_surface(const Case& values) {
+  if (!values.is_wetting()) return {};
+  const char* lacks = !values.drop.is_liquid()                                  ? "there is no liquid drop"
+                      : values.solid.kind == SolidKind::none                    ? "there is no solid to wet"
+                      : values.surface_tension.form == SurfaceTensionForm::none ? "there is no surface tension"
+                      : values.surface_tension.coefficient == 0                 ? "the surface tension is zero"
+                                                                                : nullptr;
+  if (lacks == nullptr) return {};
+  return fmt::format("surface_tension.contact_angle = {} degrees, but {}; leave it out",
+                     values.surface_tension.contact_angle, lacks);
+}
+
 // A particle pushed out at this rate would be thrown beyond the boundary's reach within a step.
 Verdict contact_stiffer_than_a_step(const Case& values) {
   if (values.contact.stiffness_form != ContactStiffness::time_step || values.contact.stiffness <= 1) return {};
@@ -282,6 +294,9 @@ const std::vector<Check>& contradiction_checks() {
         "gravity.acceleration",
         "time.end"},
        step_too_large},
+      {{"surface_tension.contact_angle", "surface_tension.form", "surface_tension.coefficient", "drop.shape",
+        "drop.material", "solid.kind"},
+       contact_angle_without_surface},
       {{"contact.stiffness", "contact.stiffness_form"}, contact_stiffer_than_a_step},
       {{"contact.stiffness",
         "contact.stiffness_form",

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "contact/contact_force.hpp"
 #include "contact/contact_surface.hpp"
+#include "contact/segment_search.hpp"
 #include "particles/vector.hpp"
 
 namespace sphdrop {
@@ -70,28 +70,14 @@ class ContactSolver {
                        const ContactParameters& parameters) const;
 
   /// The particles that have any candidate, ascending.
-  std::span<const std::int32_t> active_particles() const { return active_particles_; }
+  std::span<const std::int32_t> active_particles() const { return search_.active_points(); }
   /// The segments within reach of the k-th active particle, ascending.
-  std::span<const std::int32_t> candidates(std::size_t k) const {
-    return std::span(candidates_).subspan(candidate_starts_[k], candidate_starts_[k + 1] - candidate_starts_[k]);
-  }
+  std::span<const std::int32_t> candidates(std::size_t k) const { return search_.candidates(k); }
   std::span<const Segment> segments() const { return segments_; }
 
  private:
-  struct CellEntry {
-    std::int64_t column, row;
-    std::int32_t segment;
-    friend bool operator<(const CellEntry& a, const CellEntry& b) {
-      return std::tie(a.column, a.row, a.segment) < std::tie(b.column, b.row, b.segment);
-    }
-  };
-
   std::vector<Segment> segments_;
-  std::vector<CellEntry>
-      cell_entries_;  // the segments that may be within reach of a cell, sorted by cell, then segment
-  std::vector<std::int32_t> active_particles_;
-  std::vector<std::int32_t> candidate_starts_{0};
-  std::vector<std::int32_t> candidates_;
+  SegmentSearch search_;
 };
 
 }  // namespace sphdrop

@@ -13,7 +13,9 @@ ContactStep::ContactStep(const Communicator& communicator, const Case& input,
                          const std::vector<std::vector<std::int64_t>>& polylines)
     : communicator_(communicator),
       time_step_stiffness_(input.contact.stiffness_form == ContactStiffness::time_step ? input.contact.stiffness : 0.0),
-      drop_is_rigid_(input.drop.is_rigid()) {
+      drop_is_rigid_(input.drop.is_rigid()),
+      is_wetting_(input.is_wetting()),
+      spacing_(input.resolution.spacing) {
   const double d = input.resolution.spacing;
   parameters_.contact_distance = input.contact.distance_ratio * d;
   parameters_.overlap_limit = input.contact.overlap_limit;
@@ -38,6 +40,12 @@ ContactParameters ContactStep::parameters(double step) const {
   ContactParameters present = parameters_;
   present.spring_rate = time_step_spring_rate(time_step_stiffness_, step);
   return present;
+}
+
+// A surface point is d/2 from its particle. Until the next redistribution liquid and boundary each move by half a skin
+// at most.
+double ContactStep::boundary_reach(const InteractionRange& range) const {
+  return adhesion_parameters(spacing_, parameters_.contact_distance).range() + 0.5 * spacing_ + range.skin;
 }
 
 void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& solid, const InteractionRange& range) {
@@ -71,6 +79,12 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   for (std::size_t k = 0; k < fluid_rows_.size(); ++k) {
     fluid_ids.push_back(fluid.id[static_cast<std::size_t>(fluid_rows_[k])]);
     for (const std::int32_t segment : search.candidates(k)) wanted_here.push_back(segment);
+  }
+  if (is_wetting_) {
+    search.rebuild({fluid.position.x.data(), owned}, {fluid.position.y.data(), owned}, x, y, segments_,
+                   boundary_reach(range));
+    for (std::size_t k = 0; k < search.active_particles().size(); ++k)
+      for (const std::int32_t segment : search.candidates(k)) wanted_here.push_back(segment);
   }
   std::sort(wanted_here.begin(), wanted_here.end());
   wanted_here.erase(std::unique(wanted_here.begin(), wanted_here.end()), wanted_here.end());
@@ -158,7 +172,14 @@ void ContactStep::start(const FluidParticles& fluid, const SolidParticles& solid
   solid_gather_.start_gather(std::array<const void*, 2>{solid.position.x.data(), solid.position.y.data()});
 }
 
+void ContactStep::gather_boundary(const SolidParticles& solid) {
+  solid_gather_.start_gather(std::array<const void*, 2>{solid.position.x.data(), solid.position.y.data()});
+  solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+}
+
 void ContactStep::receive() {
+  if (segments_.empty()) return;
+  for (auto* column : {&force_x_, &force_y_}) std::fill(column->begin(), column->end(), 0.0);
   if (parameters_.resists_motion()) {
     fluid_gather_.finish_gather(
         std::array<void*, 4>{fluid_x_.data(), fluid_y_.data(), fluid_velocity_x_.data(), fluid_velocity_y_.data()});
@@ -170,15 +191,17 @@ void ContactStep::receive() {
   solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
 }
 
-void ContactStep::work(double time, double step, double kick) {
+void ContactStep::work(double time, double step, double kick, const AdhesionSummary& adhesion) {
   if (segments_.empty()) return;
-  receive();
   if (owner_ == communicator_.rank()) {
-    for (auto* column : {&acceleration_x_, &acceleration_y_, &force_x_, &force_y_})
-      std::fill(column->begin(), column->end(), 0.0);
+    for (auto* column : {&acceleration_x_, &acceleration_y_}) std::fill(column->begin(), column->end(), 0.0);
     summary_ = solver_.apply(
         {fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_, fluid_velocity_x_, fluid_velocity_y_},
         {vertex_x_, vertex_y_, force_x_, force_y_, vertex_velocity_x_, vertex_velocity_y_}, parameters(step));
+    if (is_wetting_) {
+      summary_.force_on_solid += adhesion.force_on_solid;
+      summary_.moment_on_solid += adhesion.moment_on_solid;
+    }
     const double previous_step = 2.0 * kick - step;
     impulse_ = record_.impulse() + 0.5 * previous_step * last_force_;
     last_force_ = summary_.force_on_solid;
@@ -187,7 +210,9 @@ void ContactStep::work(double time, double step, double kick) {
     last_moment_ = summary_.moment_on_solid;
     dissipated_energy_ += 0.5 * previous_step * (last_dissipation_ + summary_.dissipation);
     last_dissipation_ = summary_.dissipation;
-    record_.add(time, kick, summary_.count, summary_.force_on_solid);
+    // Where the solid attracts the liquid, they touch as long as the liquid has a base.
+    const std::int64_t touching = is_wetting_ ? (adhesion.base_width > 0.0 ? 1 : 0) : summary_.count;
+    record_.add(time, kick, touching, summary_.force_on_solid);
   }
   if (!drop_is_rigid_)
     fluid_gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});

@@ -13,6 +13,7 @@
 #include "particles/fluid_particles.hpp"
 #include "particles/solid_particles.hpp"
 #include "simulation/distribution.hpp"
+#include "wetting/adhesion.hpp"
 
 namespace sphdrop {
 
@@ -22,8 +23,8 @@ struct Load {
   double moment = 0;
 };
 
-/// In a step: start(), work(), finish(). Only the liquid within reach of the boundary and the boundary within reach of
-/// the liquid are gathered.
+/// In a step: start(), receive(), work(), finish(). Only the liquid within reach of the boundary and the boundary
+/// within reach of the liquid are gathered.
 class ContactStep {
  public:
   /// `polylines`: the solid's boundary as global ids, the solid on the right.
@@ -35,9 +36,14 @@ class ContactStep {
 
   /// Sends positions to the owner.
   void start(const FluidParticles& fluid, const SolidParticles& solid);
+  /// At the owner: the boundary is as it is now, with no force on it yet.
+  void receive();
+  /// Collective, apart from a step: the boundary at its owner as it is now.
+  void gather_boundary(const SolidParticles& solid);
   /// At the owner: forces at `time`, where Eq 24 takes the step to come, and the impulse they give over the time they
-  /// act, `kick`; starts sending them back. All in s.
-  void work(double time, double step, double kick);
+  /// act, `kick`; starts sending them back. All in s. `adhesion`: what else acts on the boundary, where the solid
+  /// attracts the liquid; its forces are already among those of boundary_forces().
+  void work(double time, double step, double kick, const AdhesionSummary& adhesion);
   /// Adds the accelerations to liquid and boundary rows; collective if the drop is rigid.
   void finish(FluidParticles& fluid, SolidParticles& solid);
 
@@ -45,6 +51,10 @@ class ContactStep {
   Load load_on_solid() const { return load_on_solid_; }
 
   int owner() const { return owner_; }
+  /// At the owner: the part of the boundary that liquid may come near to until the next regather(), as last received,
+  /// and the forces on it. If the solid attracts the liquid the part reaches as far as that matters.
+  ContactSurface boundary() const { return {solver_.segments(), vertex_x_, vertex_y_}; }
+  ContactVertices boundary_forces() { return {vertex_x_, vertex_y_, force_x_, force_y_}; }
   /// At the owner, of the step last worked on.
   const ContactSummary& summary() const { return summary_; }
   const ContactRecord& record() const { return record_; }
@@ -67,7 +77,7 @@ class ContactStep {
 
  private:
   ContactParameters parameters(double step) const;
-  void receive();
+  double boundary_reach(const InteractionRange& range) const;
   void move_record(int new_owner);
   void accelerate_liquid(FluidParticles& fluid);
   void share_load();
@@ -76,6 +86,8 @@ class ContactStep {
   ContactParameters parameters_;
   double time_step_stiffness_;  // Eq 24's 0.1; 0 where the springs are fixed
   bool drop_is_rigid_;
+  bool is_wetting_;
+  double spacing_;
   std::vector<std::int64_t> vertex_ids_;  // ascending; a vertex' index is its place here
   std::vector<Segment> segments_;
 

@@ -259,6 +259,7 @@ RunSummary Recorder::summary() const {
     if (c.drop.is_liquid()) {
       term("compression, drop", &Observation::compressive);
       term("surface", &Observation::surface);
+      if (c.is_wetting()) term("adhesion", &Observation::adhesion);
       term("dissipated, drop", &Observation::dissipated_fluid);
       term("density correction", &Observation::density_correction, -1.0);
       term("curve reconnection", &Observation::reconnection, -1.0);
