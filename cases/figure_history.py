@@ -30,8 +30,9 @@ PANELS = [
     Panel("contact impulse  (mN s/m)", {"contact_impulse_y": "$y$", "contact_impulse_x": "$x$"}, MILLI),
     Panel("energy  (mJ/m)", {"kinetic_fluid": "kinetic, drop", "kinetic_solid": "kinetic, solid", "elastic": "elastic",
                              "contact": "contact", "compressive": "compressive",
-                             "dissipated_fluid": "dissipated, drop", "dissipated_solid": "dissipated, solid"}, MILLI),
-    Panel("energy since the start  (mJ/m)", {"surface": "surface", "total": "total", "gravity": "gravity",
+                             "dissipated_fluid": "dissipated, drop", "dissipated_solid": "dissipated, solid",
+                             "dissipated_contact": "dissipated, contact"}, MILLI),
+    Panel("energy since the start  (mJ/m)", {"surface": "surface", "adhesion": "adhesion", "total": "total", "gravity": "gravity",
                                              "density_correction": "density correction",
                                              "reconnection": "curves detected anew"}, MILLI, "start"),
 ]

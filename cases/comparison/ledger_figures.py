@@ -18,14 +18,14 @@ NEGLIGIBLE = 5e-3
 COLOURS = {
     "kinetic_fluid": LINES[0], "kinetic_solid": LINES[6], "elastic": LINES[2], "compressive": LINES[3],
     "surface": LINES[4], "contact": LINES[7], "gravity": "#8c6d46", "dissipated_fluid": LINES[1], "dissipated_solid": "#e58a7b",
-    "density_correction": "#4b5fd1", "artificial_stress_work": "#7a8f2f", "reconnection": LINES[5],
+    "adhesion": "#c39bd3", "dissipated_contact": "#b5651d", "density_correction": "#4b5fd1", "artificial_stress_work": "#7a8f2f", "reconnection": LINES[5],
 }
 
 
 def _changes(run: Run) -> dict[str, np.ndarray]:
     """Each energy in mJ/m; surface and gravity from their value at the start, as only their changes mean anything."""
     terms = {name: column(run, name) * MILLI for name in [*STORED, *DISSIPATED, *INJECTED]}
-    for name in ("surface", "gravity"):
+    for name in ("surface", "adhesion", "gravity"):
         terms[name] = terms[name] - terms[name][0]
     largest = max(np.abs(values).max() for values in terms.values()) or 1.0
     return {name: values for name, values in terms.items() if np.abs(values).max() > NEGLIGIBLE * largest}
@@ -37,11 +37,11 @@ def draw_energies(axes: Axes, run: Run, is_small: bool = False) -> None:
     labels = {**STORED, **DISSIPATED, **INJECTED}
     width = 0.8 if is_small else 1.3
     for name, values in _changes(run).items():
-        label = labels[name] + (", change" if name in ("surface", "gravity") else "")
+        label = labels[name] + (", change" if name in ("surface", "adhesion", "gravity") else "")
         axes.plot(time, values, color=COLOURS[name], label=label, linewidth=width, linestyle="--" if name in INJECTED else "-")
-    balance = (column(run, "total") + column(run, "dissipated_fluid") + column(run, "dissipated_solid")
+    balance = (column(run, "total") + sum(column(run, name) for name in DISSIPATED)
                - sum(column(run, name) for name in INJECTED))
-    start = column(run, "surface")[0] + column(run, "gravity")[0]
+    start = sum(column(run, name)[0] for name in ("surface", "adhesion", "gravity"))
     axes.plot(time, (balance - start) * MILLI, color="black", linewidth=width, label="sum (stored + dissipated - put in)")
     axes.margins(x=0.01)
 

@@ -20,8 +20,9 @@ Array = NDArray[np.float64]
 
 # Stored or moving, given away, and put in from outside the equations of motion. Each with its name in a legend.
 STORED = {"kinetic_fluid": "kinetic, drop", "kinetic_solid": "kinetic, solid", "elastic": "elastic",
-          "compressive": "compressive", "surface": "surface", "contact": "contact", "gravity": "gravity"}
-DISSIPATED = {"dissipated_fluid": "dissipated, drop", "dissipated_solid": "dissipated, solid"}
+          "compressive": "compressive", "surface": "surface", "adhesion": "adhesion", "contact": "contact", "gravity": "gravity"}
+DISSIPATED = {"dissipated_fluid": "dissipated, drop", "dissipated_solid": "dissipated, solid",
+              "dissipated_contact": "dissipated, contact"}
 INJECTED = {"density_correction": "density correction", "artificial_stress_work": "artificial stress",
             "reconnection": "curves detected anew"}
 

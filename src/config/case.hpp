@@ -15,6 +15,7 @@ enum class SolidFormulation { automatic, hypoelastic, cells };
 enum class MaterialLaw { st_venant_kirchhoff, neo_hookean };
 enum class Clamp { strips, ideal };
 enum class DeviatoricTrace { plane_strain, two_dimensional };
+enum class ContactStiffness { time_step, fixed };
 enum class SurfaceTensionForm { none, conservative, curvature };
 
 /// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
@@ -95,7 +96,10 @@ struct Case {
   } solid;
 
   struct Contact {
-    double stiffness = 0;       ///< Eq 24's 0.1
+    ContactStiffness stiffness_form = ContactStiffness::time_step;
+    double stiffness = 0;       ///< time_step: Eq 24's 0.1; fixed: k_n over contact_modulus()
+    double damping_ratio = 0;   ///< of a particle's normal motion; 1: critical
+    double wall_drag = 0;       ///< of the motion along the wall, in units of nu/d^2
     double distance_ratio = 0;  ///< d0/d
     double overlap_limit = 0;   ///< d0 - d_p at which the run stops, in units of d0
     bool operator==(const Contact&) const = default;
@@ -104,6 +108,7 @@ struct Case {
   struct SurfaceTension {
     SurfaceTensionForm form = SurfaceTensionForm::conservative;
     double coefficient = 0;              ///< sigma, N/m
+    double contact_angle = 0;            ///< theta, degrees; at 180 the solid does not attract the liquid
     std::int64_t polynomial_points = 0;  ///< 3 or 5, Eq 28
     double detection_displacement =
         0;  ///< in units of d: the curve's connectivity is kept until a particle has moved so far
@@ -141,6 +146,17 @@ struct Case {
     double domain_margin = 0;  ///< m: a particle farther than this outside the box of the initial particles is lost
     bool operator==(const Safety&) const = default;
   } safety;
+
+  /// Pa, of which contact.stiffness is a share where it is fixed: rho c^2 of the body that yields, the liquid; with a
+  /// rigid drop the beam; where neither yields, of the liquid all the same, which sets the time step there too.
+  double contact_modulus() const {
+    const bool has_beam = solid.kind == SolidKind::cantilever || solid.kind == SolidKind::fixed_fixed_beam;
+    if (drop.is_rigid() && has_beam) return solid.youngs_modulus / (3.0 * (1.0 - 2.0 * solid.poisson_ratio));
+    return fluid.density * fluid.sound_speed * fluid.sound_speed;
+  }
+
+  /// Whether the solid attracts the liquid.
+  bool is_wetting() const { return surface_tension.contact_angle < 180.0; }
 
   bool operator==(const Case&) const = default;
 };

@@ -196,6 +196,46 @@ Verdict step_too_large(const Case& values) {
       values.time.step, bound.step, bound.equation);
 }
 
+Verdict contact_angle_without_surface(const Case& values) {
+  if (!values.is_wetting()) return {};
+  const char* lacks = !values.drop.is_liquid()                                  ? "there is no liquid drop"
+                      : values.solid.kind == SolidKind::none                    ? "there is no solid to wet"
+                      : values.surface_tension.form == SurfaceTensionForm::none ? "there is no surface tension"
+                      : values.surface_tension.coefficient == 0                 ? "the surface tension is zero"
+                                                                                : nullptr;
+  if (lacks == nullptr) return {};
+  return fmt::format("surface_tension.contact_angle = {} degrees, but {}; leave it out",
+                     values.surface_tension.contact_angle, lacks);
+}
+
+// A particle pushed out at this rate would be thrown beyond the boundary's reach within a step.
+Verdict contact_stiffer_than_a_step(const Case& values) {
+  if (values.contact.stiffness_form != ContactStiffness::time_step || values.contact.stiffness <= 1) return {};
+  return fmt::format(
+      "contact.stiffness = {} moves a particle by more than its overlap within a step; take at most 1, or "
+      "contact.stiffness_form = \"fixed\"",
+      values.contact.stiffness);
+}
+
+// Twice this is where the leap-frog would be unstable.
+Verdict contact_springs_within_a_step(const Case& values) {
+  if (values.contact.stiffness_form != ContactStiffness::fixed || !has_drop(values) ||
+      values.solid.kind == SolidKind::none)
+    return {};
+  const double d = values.resolution.spacing;
+  double inverse_mass = 1 / (values.drop.density * d * d);
+  if (has_beam(values)) inverse_mass += 1 / (values.solid.density * d * d);
+  const double rate = values.contact_modulus() * inverse_mass;
+  const double acoustic =
+      values.resolution.smoothing_ratio * d / (largest_sound_speed(values) + expected_speed(values));
+  const double step = values.time.step > 0 ? values.time.step : values.time.sound_cfl * acoustic;
+  if (values.contact.stiffness * rate * step * step <= 1) return {};
+  return fmt::format(
+      "contact.stiffness = {} makes springs too stiff for a time step of {:.4g} s; take at most {:.4g}, or a smaller "
+      "time.sound_cfl or time.step",
+      values.contact.stiffness, step, 1 / (rate * step * step));
+}
+
 Verdict step_beyond_end(const Case& values) {
   if (values.time.step <= values.time.end) return {};
   return fmt::format("time.step = {} s is longer than the run, time.end = {} s", values.time.step, values.time.end);
@@ -266,6 +306,34 @@ const std::vector<Check>& contradiction_checks() {
         "gravity.acceleration",
         "time.end"},
        step_too_large},
+      {{"surface_tension.contact_angle", "surface_tension.form", "surface_tension.coefficient", "drop.shape",
+        "drop.material", "solid.kind"},
+       contact_angle_without_surface},
+      {{"contact.stiffness", "contact.stiffness_form"}, contact_stiffer_than_a_step},
+      {{"contact.stiffness",
+        "contact.stiffness_form",
+        "time.step",
+        "time.sound_cfl",
+        "resolution.spacing",
+        "resolution.smoothing_ratio",
+        "fluid.sound_speed",
+        "fluid.density",
+        "drop.shape",
+        "drop.material",
+        "drop.density",
+        "drop.diameter",
+        "drop.velocity",
+        "drop.oscillation_velocity",
+        "drop.initial_spin",
+        "surface_tension.coefficient",
+        "gravity.acceleration",
+        "time.end",
+        "solid.kind",
+        "solid.density",
+        "solid.youngs_modulus",
+        "solid.poisson_ratio",
+        "solid.initial_tip_velocity"},
+       contact_springs_within_a_step},
       {{"time.step", "time.end"}, step_beyond_end},
       {{"resolution.spacing", "drop.shape", "drop.diameter", "solid.kind", "solid.length", "solid.thickness",
         "solid.clamp_length", "solid.clamp_layers"},

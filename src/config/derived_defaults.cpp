@@ -120,6 +120,9 @@ void fill_derived_defaults(Case& values, const std::string& source_name) {
   const double d = values.resolution.spacing;
   fill(values.time.step, 0);
   fill(values.time.sound_cfl, default_sound_cfl(values));
+  const bool springs_are_fixed = values.contact.stiffness_form == ContactStiffness::fixed;
+  fill(values.contact.stiffness, springs_are_fixed ? 0.3 : 0.1);
+  fill(values.contact.overlap_limit, springs_are_fixed ? 0.5 : 0.2);
   fill(values.drop.density, values.fluid.density);
   fill(values.drop.gap, std::max(0.0, values.contact.distance_ratio - 1) * d + 0.1 * d);
   if (std::isnan(values.solid.length) && !has_beam(values)) {

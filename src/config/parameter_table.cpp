@@ -54,6 +54,7 @@ constexpr std::string_view formulation_words[] = {"auto", "hypoelastic", "cells"
 constexpr std::string_view law_words[] = {"st_venant_kirchhoff", "neo_hookean"};
 constexpr std::string_view clamp_words[] = {"strips", "ideal"};
 constexpr std::string_view trace_words[] = {"plane_strain", "two_dimensional"};
+constexpr std::string_view stiffness_words[] = {"time_step", "fixed"};
 constexpr std::string_view form_words[] = {"none", "conservative", "curvature"};
 
 constexpr std::int64_t stencil_choices[] = {3, 5};
@@ -209,11 +210,25 @@ constexpr Parameter table[] = {
      real<&C::solid, &C::Solid::initial_tip_velocity>(0.0, either_sign(largest_speed)),
      "speed of a cantilever's tip in its first bending mode at the start; upwards is positive"},
 
-    {"contact.stiffness", "", "-", real<&C::contact, &C::Contact::stiffness>(0.1, positive(1)),
-     "factor of the contact force (Eq 24)"},
+    {"contact.stiffness_form", "", "-",
+     word<&C::contact, &C::Contact::stiffness_form>(stiffness_words, ContactStiffness::time_step),
+     "what the contact force is in proportion to: time_step = 1/dt^2 (Eq 24), fixed = rho c^2 of what yields (the "
+     "liquid; "
+     "with a rigid drop the beam), whatever the time step"},
+    {"contact.stiffness", "", "-",
+     real<&C::contact, &C::Contact::stiffness>(Automatic{"0.1 for time_step, 0.3 for fixed"}, positive(100)),
+     "factor of the contact force (Eq 24): time_step: the acceleration is stiffness overlap/dt^2; fixed: the force is "
+     "stiffness rho c^2 overlap"},
+    {"contact.damping_ratio", "", "-", real<&C::contact, &C::Contact::damping_ratio>(0.0, non_negative(1)),
+     "damping of a particle's motion along the normal while in contact; 1 = critical, 0 = none"},
+    {"contact.wall_drag", "", "-", real<&C::contact, &C::Contact::wall_drag>(0.0, non_negative(1000)),
+     "drag on particles in contact, in units of mu/(rho d^2) times their velocity along the wall; 1 = a no-slip "
+     "wall's, 0 = "
+     "none: the wall is smooth"},
     {"contact.distance_ratio", "d0/d_ini", "-", real<&C::contact, &C::Contact::distance_ratio>(1.0, positive(2)),
      "distance at which contact begins, in spacings"},
-    {"contact.overlap_limit", "", "d0", real<&C::contact, &C::Contact::overlap_limit>(0.2, positive(1)),
+    {"contact.overlap_limit", "", "d0",
+     real<&C::contact, &C::Contact::overlap_limit>(Automatic{"0.2 for time_step, 0.5 for fixed"}, positive(1)),
      "overlap at which the run stops, in contact distances"},
 
     {"surface_tension.form", "", "-",
@@ -221,6 +236,9 @@ constexpr Parameter table[] = {
      "conservative = minus the gradient of sigma x curve length, curvature = Eqs 28-31"},
     {"surface_tension.coefficient", "sigma", "N/m",
      real<&C::surface_tension, &C::SurfaceTension::coefficient>(0.072, non_negative(100)), "surface tension"},
+    {"surface_tension.contact_angle", "theta", "deg",
+     real<&C::surface_tension, &C::SurfaceTension::contact_angle>(180.0, {0, false, 180, true}),
+     "angle at which the liquid meets the solid: below 90 it wets it, at 180, as in the paper, nothing holds it there"},
     {"surface_tension.polynomial_points", "", "-",
      integer<&C::surface_tension, &C::SurfaceTension::polynomial_points>(3, 3, 5, stencil_choices),
      "surface points of the local polynomial (Eq 28); used by the curvature form"},

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
+#include "contact/contact_force.hpp"
 #include "contact/contact_surface.hpp"
+#include "contact/segment_search.hpp"
 #include "particles/vector.hpp"
 
 namespace sphdrop {
@@ -15,18 +16,29 @@ struct ContactParameters {
   double spring_rate = 0;       ///< k, 1/s2: acceleration per overlap; Eq 24: time_step_spring_rate()
   double contact_distance = 0;  ///< d0, m
   double overlap_limit = 0;     ///< largest overlap d0 - d_p that is still sound, in units of d0
+  double spring_stiffness = 0;  ///< k_n, Pa: where it is not zero, k = k_n/m instead (fixed_spring_rate())
+  double damping_ratio = 0;     ///< of contact_damping()
+  double drag_rate = 0;         ///< of wall_drag(), 1/s
+
+  double rate(double mass) const {
+    return spring_stiffness > 0.0 ? fixed_spring_rate(spring_stiffness, mass) : spring_rate;
+  }
+  /// Whether any force depends on velocities.
+  bool resists_motion() const { return damping_ratio > 0.0 || drag_rate > 0.0; }
 };
 
 /// Liquid particles in ascending order of their global id (shapes: [particles]; m, kg per metre of depth, m/s2).
 struct ContactParticles {
   std::span<const double> x, y, mass;
-  std::span<double> acceleration_x, acceleration_y;  ///< added to
+  std::span<double> acceleration_x, acceleration_y;    ///< added to
+  std::span<const double> velocity_x{}, velocity_y{};  ///< m/s; read where the parameters resist motion
 };
 
 /// The boundary's vertices (shapes: [vertices]; m, N per metre of depth).
 struct ContactVertices {
   std::span<const double> x, y;
-  std::span<double> force_x, force_y;  ///< added to
+  std::span<double> force_x, force_y;                  ///< added to
+  std::span<const double> velocity_x{}, velocity_y{};  ///< m/s; read where the parameters resist motion
 };
 
 /// What happened in one step. Sums run over the particles in ascending order.
@@ -35,6 +47,7 @@ struct ContactSummary {
   Vector force_on_solid;       ///< N per metre of depth
   double moment_on_solid = 0;  ///< of that force about the origin, counterclockwise, N m per metre of depth
   double energy = 0;           ///< sum of m k (d0 - d_p)^2 / 2, J per metre of depth
+  double dissipation = 0;      ///< power that dampers and drag turn into heat, W per metre of depth
   double largest_overlap = 0;  ///< largest d0 - d_p, m
   std::int32_t deepest = -1;   ///< the particle it belongs to, the lowest of several; -1 without contact
 
@@ -57,28 +70,14 @@ class ContactSolver {
                        const ContactParameters& parameters) const;
 
   /// The particles that have any candidate, ascending.
-  std::span<const std::int32_t> active_particles() const { return active_particles_; }
+  std::span<const std::int32_t> active_particles() const { return search_.active_points(); }
   /// The segments within reach of the k-th active particle, ascending.
-  std::span<const std::int32_t> candidates(std::size_t k) const {
-    return std::span(candidates_).subspan(candidate_starts_[k], candidate_starts_[k + 1] - candidate_starts_[k]);
-  }
+  std::span<const std::int32_t> candidates(std::size_t k) const { return search_.candidates(k); }
   std::span<const Segment> segments() const { return segments_; }
 
  private:
-  struct CellEntry {
-    std::int64_t column, row;
-    std::int32_t segment;
-    friend bool operator<(const CellEntry& a, const CellEntry& b) {
-      return std::tie(a.column, a.row, a.segment) < std::tie(b.column, b.row, b.segment);
-    }
-  };
-
   std::vector<Segment> segments_;
-  std::vector<CellEntry>
-      cell_entries_;  // the segments that may be within reach of a cell, sorted by cell, then segment
-  std::vector<std::int32_t> active_particles_;
-  std::vector<std::int32_t> candidate_starts_{0};
-  std::vector<std::int32_t> candidates_;
+  SegmentSearch search_;
 };
 
 }  // namespace sphdrop

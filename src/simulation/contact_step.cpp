@@ -12,10 +12,17 @@ namespace sphdrop {
 ContactStep::ContactStep(const Communicator& communicator, const Case& input,
                          const std::vector<std::vector<std::int64_t>>& polylines)
     : communicator_(communicator),
-      stiffness_(input.contact.stiffness),
-      contact_distance_(input.contact.distance_ratio * input.resolution.spacing),
-      overlap_limit_(input.contact.overlap_limit),
-      drop_is_rigid_(input.drop.is_rigid()) {
+      time_step_stiffness_(input.contact.stiffness_form == ContactStiffness::time_step ? input.contact.stiffness : 0.0),
+      drop_is_rigid_(input.drop.is_rigid()),
+      is_wetting_(input.is_wetting()),
+      spacing_(input.resolution.spacing) {
+  const double d = input.resolution.spacing;
+  parameters_.contact_distance = input.contact.distance_ratio * d;
+  parameters_.overlap_limit = input.contact.overlap_limit;
+  if (input.contact.stiffness_form == ContactStiffness::fixed)
+    parameters_.spring_stiffness = input.contact.stiffness * input.contact_modulus();
+  parameters_.damping_ratio = input.contact.damping_ratio;
+  parameters_.drag_rate = input.contact.wall_drag * input.fluid.viscosity / (input.fluid.density * d * d);
   for (const auto& polyline : polylines) vertex_ids_.insert(vertex_ids_.end(), polyline.begin(), polyline.end());
   std::sort(vertex_ids_.begin(), vertex_ids_.end());
   vertex_ids_.erase(std::unique(vertex_ids_.begin(), vertex_ids_.end()), vertex_ids_.end());
@@ -30,7 +37,15 @@ ContactStep::ContactStep(const Communicator& communicator, const Case& input,
 }
 
 ContactParameters ContactStep::parameters(double step) const {
-  return {time_step_spring_rate(stiffness_, step), contact_distance_, overlap_limit_};
+  ContactParameters present = parameters_;
+  present.spring_rate = time_step_spring_rate(time_step_stiffness_, step);
+  return present;
+}
+
+// A surface point is d/2 from its particle. Until the next redistribution liquid and boundary each move by half a skin
+// at most.
+double ContactStep::boundary_reach(const InteractionRange& range) const {
+  return adhesion_parameters(spacing_, parameters_.contact_distance).range() + 0.5 * spacing_ + range.skin;
 }
 
 void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& solid, const InteractionRange& range) {
@@ -55,7 +70,7 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   }
 
   // Until the next redistribution liquid and boundary each come nearer by half a skin at most.
-  const double reach = contact_distance_ + range.skin;
+  const double reach = parameters_.contact_distance + range.skin;
   ContactSolver search;
   const std::size_t owned = fluid.owned_count();
   search.rebuild({fluid.position.x.data(), owned}, {fluid.position.y.data(), owned}, x, y, segments_, reach);
@@ -64,6 +79,12 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   for (std::size_t k = 0; k < fluid_rows_.size(); ++k) {
     fluid_ids.push_back(fluid.id[static_cast<std::size_t>(fluid_rows_[k])]);
     for (const std::int32_t segment : search.candidates(k)) wanted_here.push_back(segment);
+  }
+  if (is_wetting_) {
+    search.rebuild({fluid.position.x.data(), owned}, {fluid.position.y.data(), owned}, x, y, segments_,
+                   boundary_reach(range));
+    for (std::size_t k = 0; k < search.active_particles().size(); ++k)
+      for (const std::int32_t segment : search.candidates(k)) wanted_here.push_back(segment);
   }
   std::sort(wanted_here.begin(), wanted_here.end());
   wanted_here.erase(std::unique(wanted_here.begin(), wanted_here.end()), wanted_here.end());
@@ -94,6 +115,10 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   for (auto* column : {&fluid_x_, &fluid_y_, &fluid_mass_, &acceleration_x_, &acceleration_y_})
     column->resize(particles);
   for (auto* column : {&vertex_x_, &vertex_y_, &force_x_, &force_y_}) column->resize(vertices);
+  if (parameters_.resists_motion()) {
+    for (auto* column : {&fluid_velocity_x_, &fluid_velocity_y_}) column->resize(particles);
+    for (auto* column : {&vertex_velocity_x_, &vertex_velocity_y_}) column->resize(vertices);
+  }
   fluid_gather_.start_gather(
       std::array<const void*, 3>{fluid.position.x.data(), fluid.position.y.data(), fluid.mass.data()});
   fluid_gather_.finish_gather(std::array<void*, 3>{fluid_x_.data(), fluid_y_.data(), fluid_mass_.data()});
@@ -114,7 +139,8 @@ void ContactStep::move_record(int new_owner) {
 std::vector<double> ContactStep::to_numbers() const {
   std::vector<double> numbers;
   if (communicator_.rank() == owner_) {
-    numbers = {last_force_.x, last_force_.y, last_moment_, staggered_angular_impulse_};
+    numbers = {last_force_.x,      last_force_.y,    last_moment_, staggered_angular_impulse_,
+               dissipated_energy_, last_dissipation_};
     const std::vector<double> record = record_.to_numbers();
     numbers.insert(numbers.end(), record.begin(), record.end());
   }
@@ -123,36 +149,70 @@ std::vector<double> ContactStep::to_numbers() const {
 }
 
 void ContactStep::from_numbers(std::span<const double> numbers) {
-  constexpr std::size_t own = 4;
+  constexpr std::size_t own = 6;
   if (numbers.size() < own) throw std::invalid_argument("the stored contact ends too early");
   last_force_ = {numbers[0], numbers[1]};
   last_moment_ = numbers[2];
   staggered_angular_impulse_ = numbers[3];
+  dissipated_energy_ = numbers[4];
+  last_dissipation_ = numbers[5];
   record_ = ContactRecord::from_numbers(numbers.subspan(own));
 }
 
 void ContactStep::start(const FluidParticles& fluid, const SolidParticles& solid) {
   if (segments_.empty()) return;
+  if (parameters_.resists_motion()) {
+    fluid_gather_.start_gather(std::array<const void*, 4>{fluid.position.x.data(), fluid.position.y.data(),
+                                                          fluid.velocity.x.data(), fluid.velocity.y.data()});
+    solid_gather_.start_gather(std::array<const void*, 4>{solid.position.x.data(), solid.position.y.data(),
+                                                          solid.velocity.x.data(), solid.velocity.y.data()});
+    return;
+  }
   fluid_gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
   solid_gather_.start_gather(std::array<const void*, 2>{solid.position.x.data(), solid.position.y.data()});
 }
 
-void ContactStep::work(double time, double step, double kick) {
+void ContactStep::gather_boundary(const SolidParticles& solid) {
+  solid_gather_.start_gather(std::array<const void*, 2>{solid.position.x.data(), solid.position.y.data()});
+  solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+}
+
+void ContactStep::receive() {
   if (segments_.empty()) return;
+  for (auto* column : {&force_x_, &force_y_}) std::fill(column->begin(), column->end(), 0.0);
+  if (parameters_.resists_motion()) {
+    fluid_gather_.finish_gather(
+        std::array<void*, 4>{fluid_x_.data(), fluid_y_.data(), fluid_velocity_x_.data(), fluid_velocity_y_.data()});
+    solid_gather_.finish_gather(
+        std::array<void*, 4>{vertex_x_.data(), vertex_y_.data(), vertex_velocity_x_.data(), vertex_velocity_y_.data()});
+    return;
+  }
   fluid_gather_.finish_gather(std::array<void*, 2>{fluid_x_.data(), fluid_y_.data()});
   solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+}
+
+void ContactStep::work(double time, double step, double kick, const AdhesionSummary& adhesion) {
+  if (segments_.empty()) return;
   if (owner_ == communicator_.rank()) {
-    for (auto* column : {&acceleration_x_, &acceleration_y_, &force_x_, &force_y_})
-      std::fill(column->begin(), column->end(), 0.0);
-    summary_ = solver_.apply({fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_},
-                             {vertex_x_, vertex_y_, force_x_, force_y_}, parameters(step));
+    for (auto* column : {&acceleration_x_, &acceleration_y_}) std::fill(column->begin(), column->end(), 0.0);
+    summary_ = solver_.apply(
+        {fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_, fluid_velocity_x_, fluid_velocity_y_},
+        {vertex_x_, vertex_y_, force_x_, force_y_, vertex_velocity_x_, vertex_velocity_y_}, parameters(step));
+    if (is_wetting_) {
+      summary_.force_on_solid += adhesion.force_on_solid;
+      summary_.moment_on_solid += adhesion.moment_on_solid;
+    }
     const double previous_step = 2.0 * kick - step;
     impulse_ = record_.impulse() + 0.5 * previous_step * last_force_;
     last_force_ = summary_.force_on_solid;
     angular_impulse_ = staggered_angular_impulse_ + 0.5 * previous_step * last_moment_;
     staggered_angular_impulse_ += kick * summary_.moment_on_solid;
     last_moment_ = summary_.moment_on_solid;
-    record_.add(time, kick, summary_.count, summary_.force_on_solid);
+    dissipated_energy_ += 0.5 * previous_step * (last_dissipation_ + summary_.dissipation);
+    last_dissipation_ = summary_.dissipation;
+    // Where the solid attracts the liquid, they touch as long as the liquid has a base.
+    const std::int64_t touching = is_wetting_ ? (adhesion.base_width > 0.0 ? 1 : 0) : summary_.count;
+    record_.add(time, kick, touching, summary_.force_on_solid);
   }
   if (!drop_is_rigid_)
     fluid_gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});

@@ -13,6 +13,7 @@
 #include "particles/fluid_particles.hpp"
 #include "particles/solid_particles.hpp"
 #include "simulation/distribution.hpp"
+#include "wetting/adhesion.hpp"
 
 namespace sphdrop {
 
@@ -22,8 +23,8 @@ struct Load {
   double moment = 0;
 };
 
-/// In a step: start(), work(), finish(). Only the liquid within reach of the boundary and the boundary within reach of
-/// the liquid are gathered.
+/// In a step: start(), receive(), work(), finish(). Only the liquid within reach of the boundary and the boundary
+/// within reach of the liquid are gathered.
 class ContactStep {
  public:
   /// `polylines`: the solid's boundary as global ids, the solid on the right.
@@ -35,9 +36,14 @@ class ContactStep {
 
   /// Sends positions to the owner.
   void start(const FluidParticles& fluid, const SolidParticles& solid);
+  /// At the owner: the boundary is as it is now, with no force on it yet.
+  void receive();
+  /// Collective, apart from a step: the boundary at its owner as it is now.
+  void gather_boundary(const SolidParticles& solid);
   /// At the owner: forces at `time`, where Eq 24 takes the step to come, and the impulse they give over the time they
-  /// act, `kick`; starts sending them back. All in s.
-  void work(double time, double step, double kick);
+  /// act, `kick`; starts sending them back. All in s. `adhesion`: what else acts on the boundary, where the solid
+  /// attracts the liquid; its forces are already among those of boundary_forces().
+  void work(double time, double step, double kick, const AdhesionSummary& adhesion);
   /// Adds the accelerations to liquid and boundary rows; collective if the drop is rigid.
   void finish(FluidParticles& fluid, SolidParticles& solid);
 
@@ -45,6 +51,10 @@ class ContactStep {
   Load load_on_solid() const { return load_on_solid_; }
 
   int owner() const { return owner_; }
+  /// At the owner: the part of the boundary that liquid may come near to until the next regather(), as last received,
+  /// and the forces on it. If the solid attracts the liquid the part reaches as far as that matters.
+  ContactSurface boundary() const { return {solver_.segments(), vertex_x_, vertex_y_}; }
+  ContactVertices boundary_forces() { return {vertex_x_, vertex_y_, force_x_, force_y_}; }
   /// At the owner, of the step last worked on.
   const ContactSummary& summary() const { return summary_; }
   const ContactRecord& record() const { return record_; }
@@ -53,6 +63,8 @@ class ContactStep {
   Vector impulse() const { return impulse_; }
   /// At the owner: likewise the angular impulse about the origin, N m s/m.
   double angular_impulse() const { return angular_impulse_; }
+  /// At the owner: heat made by dampers and drag up to the instant last worked on, J/m.
+  double dissipated_energy() const { return dissipated_energy_; }
   /// At the owner: whether an overlap is beyond the limit, and the global id of the deepest particle (-1: none).
   bool overlap_is_too_deep() const { return summary_.overlap_is_too_deep(parameters(1.0)); }
   std::int64_t deepest_particle() const;
@@ -65,13 +77,17 @@ class ContactStep {
 
  private:
   ContactParameters parameters(double step) const;
+  double boundary_reach(const InteractionRange& range) const;
   void move_record(int new_owner);
   void accelerate_liquid(FluidParticles& fluid);
   void share_load();
 
   const Communicator& communicator_;
-  double stiffness_, contact_distance_, overlap_limit_;
+  ContactParameters parameters_;
+  double time_step_stiffness_;  // Eq 24's 0.1; 0 where the springs are fixed
   bool drop_is_rigid_;
+  bool is_wetting_;
+  double spacing_;
   std::vector<std::int64_t> vertex_ids_;  // ascending; a vertex' index is its place here
   std::vector<Segment> segments_;
 
@@ -89,8 +105,10 @@ class ContactStep {
   ContactRecord record_;
   Vector impulse_, last_force_;
   double staggered_angular_impulse_ = 0, angular_impulse_ = 0, last_moment_ = 0;
+  double dissipated_energy_ = 0, last_dissipation_ = 0;
   std::vector<double> fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_;
   std::vector<double> vertex_x_, vertex_y_, force_x_, force_y_;
+  std::vector<double> fluid_velocity_x_, fluid_velocity_y_, vertex_velocity_x_, vertex_velocity_y_;
 };
 
 }  // namespace sphdrop

@@ -162,7 +162,7 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     std::vector<double> numbers;
     if (simulation.communicator().rank() == tension.owner()) {
       const SurfaceReport r = tension.report();
-      numbers = {r.length, r.mean_curvature, r.curvature_scatter, r.curve_count, r.net_force};
+      numbers = {r.length, r.mean_curvature, r.curvature_scatter, r.curve_count, r.net_force, r.base_width};
     }
     simulation.communicator().broadcast(numbers, tension.owner());
     o.curve_length = numbers[0];
@@ -172,6 +172,11 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     o.tension_net_force = numbers[4];
     o.surface = simulation.input().surface_tension.coefficient * o.curve_length;
     o.reconnection = simulation.input().surface_tension.coefficient * tension.reconnected_length();
+    if (tension.work_of_adhesion() > 0) {
+      o.base_width = numbers[5];
+      o.adhesion = -tension.work_of_adhesion() * o.base_width;
+      o.reconnection -= tension.work_of_adhesion() * tension.reconnected_base();
+    }
   }
 }
 
@@ -190,8 +195,9 @@ void observe_contact(const Simulation& simulation, Observation& o) {
   if (simulation.communicator().rank() == contact.owner()) {
     const ContactSummary& s = contact.summary();
     const Vector impulse = contact.impulse();
-    numbers = {static_cast<double>(s.count), s.force_on_solid.x, s.force_on_solid.y, impulse.x, impulse.y, s.energy,
-               contact.angular_impulse()};
+    numbers = {
+        static_cast<double>(s.count), s.force_on_solid.x,         s.force_on_solid.y, impulse.x, impulse.y, s.energy,
+        contact.angular_impulse(),    contact.dissipated_energy()};
   }
   simulation.communicator().broadcast(numbers, contact.owner());
   o.contact_count = numbers[0];
@@ -201,6 +207,7 @@ void observe_contact(const Simulation& simulation, Observation& o) {
   o.contact_impulse_y = numbers[4];
   o.contact = numbers[5];
   o.contact_angular_impulse = numbers[6];
+  o.dissipated_contact = numbers[7];
 }
 
 }  // namespace
@@ -215,7 +222,7 @@ Observation observe(const Simulation& simulation, double initial_total) {
 
   Observation o{};
   for (const ObservedQuantity& quantity : observed_quantities()) o.*quantity.value = nan;
-  o.surface = o.contact = o.reconnection = o.largest_density_error = 0.0;
+  o.surface = o.adhesion = o.contact = o.reconnection = o.largest_density_error = 0.0;
   o.time = simulation.time();
   o.step = static_cast<double>(simulation.step());
   o.time_step = simulation.time_step();
@@ -233,9 +240,10 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.dissipated_solid = sum[solid_heat];
   o.density_correction = sum[fluid_correction];
   o.artificial_stress_work = sum[solid_artificial];
-  o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.contact + o.gravity;
-  o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid - o.density_correction - o.artificial_stress_work -
-                  o.reconnection - initial_total;
+  o.total =
+      o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.adhesion + o.contact + o.gravity;
+  o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid + o.dissipated_contact - o.density_correction -
+                  o.artificial_stress_work - o.reconnection - initial_total;
   o.momentum_fluid_x = sum[fluid_momentum_x];
   o.momentum_fluid_y = sum[fluid_momentum_y];
   o.momentum_solid_x = sum[solid_momentum_x];

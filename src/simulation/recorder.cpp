@@ -259,6 +259,7 @@ RunSummary Recorder::summary() const {
     if (c.drop.is_liquid()) {
       term("compression, drop", &Observation::compressive);
       term("surface", &Observation::surface);
+      if (c.is_wetting()) term("adhesion", &Observation::adhesion);
       term("dissipated, drop", &Observation::dissipated_fluid);
       term("density correction", &Observation::density_correction, -1.0);
       term("curve reconnection", &Observation::reconnection, -1.0);
@@ -270,6 +271,8 @@ RunSummary Recorder::summary() const {
       term("artificial stress", &Observation::artificial_stress_work, -1.0);
     }
     if (r.contact) term("contact", &Observation::contact);
+    if (r.contact && (c.contact.damping_ratio > 0 || c.contact.wall_drag > 0))
+      term("dissipated, contact", &Observation::dissipated_contact);
     if (c.gravity.x != 0 || c.gravity.y != 0) term("gravity", &Observation::gravity);
     r.initial_kinetic_energy = first_->kinetic_fluid + first_->kinetic_solid;
   }

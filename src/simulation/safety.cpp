@@ -78,14 +78,17 @@ void Simulation::stop_with_diagnosis() {
     }
   });
   all = communicator_.all_gather(std::span<const Suspect>(mine));
+  const char* advice =
+      case_.contact.stiffness_form == ContactStiffness::time_step
+          ? "The contact's spring would throw it out: try a smaller time.step, or contact.overlap_limit "
+            "if you know that it is harmless."
+          : "The contact's springs are too soft for such an impact: try a larger contact.stiffness, or a "
+            "larger fluid.sound_speed if the liquid itself is too soft.";
   throw SafetyError(
       fmt::format("step {}, t = {:.6g} s: overlap of {:.6g} m with the solid, more than contact.overlap_limit = {:.6g} "
-                  "of the contact "
-                  "distance: {}. The contact's spring would throw it out: try a smaller time.step, or "
-                  "contact.overlap_limit if you know "
-                  "that it is harmless.",
+                  "of the contact distance: {}. {}",
                   step_, time_, deepest[1], case_.contact.overlap_limit,
-                  all.empty() ? fmt::format("particle {}", id) : describe(all[0])));
+                  all.empty() ? fmt::format("particle {}", id) : describe(all[0]), advice));
 }
 
 void Simulation::stop_where_inverted() {

@@ -235,7 +235,7 @@ void Simulation::evaluate() {
   start_exchange(distribution_.fluid_halo(), fluid_ghosted_);
   start_exchange(distribution_.solid_halo(), solid_ghosted_);
   if (detection_is_due_) {
-    surface_tension_.detect(fluid_, distribution_);
+    surface_tension_.detect(fluid_, solid_, distribution_, contact_);
     ++detections_;
     timer_.lap(Phase::surface_tension);
   }
@@ -245,9 +245,11 @@ void Simulation::evaluate() {
 
   steps_.next = next_step_length(squared_speed_now);
   sweep_what_needs_no_ghosts();
-  if (surface_tension_.is_enabled()) surface_tension_.work();
+  contact_.receive();
+  timer_.lap(Phase::contact);
+  if (surface_tension_.is_enabled()) surface_tension_.work(contact_);
   timer_.lap(Phase::surface_tension);
-  contact_.work(time_, steps_.next, steps_.kick());
+  contact_.work(time_, steps_.next, steps_.kick(), surface_tension_.adhesion());
   timer_.lap(Phase::contact);
   finish_exchange(distribution_.fluid_halo(), fluid_ghosted_);
   finish_exchange(distribution_.solid_halo(), solid_ghosted_);
@@ -310,8 +312,8 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
   fluid_sweep_.resize(fluid_);
   solid_step_->relist(solid_, distribution_);
   contact_.regather(fluid_, solid_, parameters_.range);
-  if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_);
-  if (surface_tension_.is_enabled() && !is_distributed_) surface_tension_.recover(fluid_, distribution_);
+  if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_, contact_);
+  if (surface_tension_.is_enabled() && !is_distributed_) surface_tension_.recover(fluid_, distribution_, contact_);
   is_distributed_ = true;
   ++redistributions_;
   timer_.lap(Phase::redistribution);

@@ -22,35 +22,50 @@ SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const C
       support_(2.0 * input.resolution.smoothing_ratio * input.resolution.spacing),
       detection_displacement_(input.surface_tension.detection_displacement * input.resolution.spacing),
       polynomial_points_(static_cast<int>(input.surface_tension.polynomial_points)),
-      finder_(support_) {}
+      finder_(support_),
+      is_wetting_(is_enabled() && input.is_wetting()),
+      adhesion_parameters_(adhesion_parameters(
+          spacing_, input.contact.distance_ratio * spacing_,
+          is_wetting_ ? sphdrop::work_of_adhesion(coefficient_, input.surface_tension.contact_angle) : 0.0)),
+      // From where the particle was at detection. Until the next one it moves by the displacement and a step, the
+      // boundary, in the same time or until a redistribution, by a skin.
+      adhesion_reach_(adhesion_parameters_.range() + 0.6 * spacing_ + detection_displacement_ +
+                      input.parallel.skin * spacing_) {}
 
-void SurfaceTensionStep::detect(FluidParticles& fluid, Distribution& distribution) {
-  double old_length = 0;
+void SurfaceTensionStep::detect(FluidParticles& fluid, const SolidParticles& solid, Distribution& distribution,
+                                ContactStep& contact) {
+  Extent old;
   if (has_curves_) {
     gather_points(fluid);
-    old_length = length_on_all_ranks();
+    if (is_wetting_) contact.gather_boundary(solid);
+    old = extent_on_all_ranks(contact);
   }
   fluid.for_each_owned([&](std::size_t row) { fluid.detection_position.set(row, fluid.position.at(row)); });
   find_arcs(fluid, distribution);
-  regather(fluid);
-  if (has_curves_) reconnected_length_ += length_on_all_ranks() - old_length;
+  regather(fluid, contact);
+  if (has_curves_) {
+    const Extent present = extent_on_all_ranks(contact);
+    reconnected_length_ += present.length - old.length;
+    reconnected_base_ += present.base - old.base;
+  }
   has_curves_ = true;
 }
 
-void SurfaceTensionStep::recover(FluidParticles& fluid, Distribution& distribution) {
+void SurfaceTensionStep::recover(FluidParticles& fluid, Distribution& distribution, const ContactStep& contact) {
   if (!has_curves_) return;
   find_arcs(fluid, distribution);
-  regather(fluid);
+  regather(fluid, contact);
 }
 
 std::vector<double> SurfaceTensionStep::to_numbers() const {
-  return {has_curves_ ? 1.0 : 0.0, reconnected_length_};
+  return {has_curves_ ? 1.0 : 0.0, reconnected_length_, reconnected_base_};
 }
 
 void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
   NumberReader reader(numbers, "surface");
   has_curves_ = reader.flag();
   reconnected_length_ = reader.number();
+  reconnected_base_ = reader.number();
   reader.expect_end();
 }
 
@@ -61,11 +76,14 @@ void SurfaceTensionStep::gather_points(const FluidParticles& fluid) {
   update_points();
 }
 
-double SurfaceTensionStep::length_on_all_ranks() const {
-  std::vector<double> length;
-  if (owner() == communicator_.rank()) length = {total_length(curves_, points_)};
-  communicator_.broadcast(length, owner());
-  return length[0];
+SurfaceTensionStep::Extent SurfaceTensionStep::extent_on_all_ranks(const ContactStep& contact) {
+  std::vector<double> numbers;
+  if (owner() == communicator_.rank()) {
+    numbers = {total_length(curves_, points_), 0.0};
+    if (is_wetting_) numbers[1] = adhesion_.base_width(curves_, points_, contact.boundary(), adhesion_parameters_);
+  }
+  communicator_.broadcast(numbers, owner());
+  return {numbers[0], numbers[1]};
 }
 
 void SurfaceTensionStep::update_points() {
@@ -137,7 +155,7 @@ void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribu
   }
 }
 
-void SurfaceTensionStep::regather(const FluidParticles& fluid) {
+void SurfaceTensionStep::regather(const FluidParticles& fluid, const ContactStep& contact) {
   // A surface point is d/2 from its particle and acts as far as 2h. Until the next detection both ends move by its
   // displacement and a step, the point a little more, as it also turns about its particle.
   const double action = support_ + 6.0 * detection_displacement_ + 0.02 * spacing_;
@@ -160,7 +178,8 @@ void SurfaceTensionStep::regather(const FluidParticles& fluid) {
     band_rows_.push_back(static_cast<std::int32_t>(row));
     ids.push_back(fluid.id[row]);
   });
-  const int owner = rank_with_most(communicator_, static_cast<std::int64_t>(band_rows_.size()));
+  const int owner =
+      is_wetting_ ? contact.owner() : rank_with_most(communicator_, static_cast<std::int64_t>(band_rows_.size()));
   gather_ = InterfaceGather(communicator_, ids, band_rows_, owner, tags::surface);
   returned_x_.assign(fluid.size(), 0.0);
   returned_y_.assign(fluid.size(), 0.0);
@@ -194,13 +213,17 @@ void SurfaceTensionStep::regather(const FluidParticles& fluid) {
   }
   surface_points(curves_, node_positions_, spacing_, points_);
   sharing_.rebuild(points_, x_, y_, action);
+  if (is_wetting_) {
+    adhesion_.rebuild(node_positions_, contact.boundary(), adhesion_reach_);
+    all_forces_.resize(curves_.nodes.size());
+  }
 }
 
 void SurfaceTensionStep::start(const FluidParticles& fluid) {
   gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
 }
 
-void SurfaceTensionStep::work() {
+void SurfaceTensionStep::work(ContactStep& contact) {
   gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
   if (owner() == communicator_.rank()) {
     update_points();
@@ -210,7 +233,13 @@ void SurfaceTensionStep::work() {
       curvature_forces(curves_, points_, coefficient_, polynomial_points_, forces_);
     std::fill(acceleration_x_.begin(), acceleration_x_.end(), 0.0);
     std::fill(acceleration_y_.begin(), acceleration_y_.end(), 0.0);
-    lost_points_ = sharing_.share(points_, forces_, x_, y_, mass_, kernel_, acceleration_x_, acceleration_y_);
+    if (is_wetting_) {
+      all_forces_ = forces_;
+      adhesion_summary_ = adhesion_.apply(curves_, points_, contact.boundary().segments, contact.boundary_forces(),
+                                          adhesion_parameters_, all_forces_);
+    }
+    lost_points_ = sharing_.share(points_, is_wetting_ ? all_forces_ : forces_, x_, y_, mass_, kernel_, acceleration_x_,
+                                  acceleration_y_);
   }
   gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
 }
@@ -230,6 +259,7 @@ SurfaceReport SurfaceTensionStep::report() const {
   report.node_count = static_cast<double>(curves_.nodes.size());
   report.unmatched_arcs = static_cast<double>(curves_.unmatched_arcs);
   report.lost_points = static_cast<double>(lost_points_);
+  report.base_width = adhesion_summary_.base_width;
 
   std::vector<double> curvature(points_.size());
   curvatures(curves_, points_, polynomial_points_, curvature);

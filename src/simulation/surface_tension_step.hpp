@@ -7,10 +7,13 @@
 #include "config/case.hpp"
 #include "decomposition/interface_gather.hpp"
 #include "particles/fluid_particles.hpp"
+#include "particles/solid_particles.hpp"
+#include "simulation/contact_step.hpp"
 #include "simulation/distribution.hpp"
 #include "surface_tension/boundary_detection.hpp"
 #include "surface_tension/force_sharing.hpp"
 #include "surface_tension/surface_curve.hpp"
+#include "wetting/adhesion.hpp"
 
 namespace sphdrop {
 
@@ -24,10 +27,14 @@ struct SurfaceReport {
   double net_force = 0;    ///< |sum of the tension's forces| over the sum of their magnitudes
   double lost_points = 0;  ///< surface points without a particle to act on
   double unmatched_arcs = 0;
+  double base_width = 0;  ///< B, m; 0 unless the solid attracts the liquid
 };
 
 /// In a step: start(), work(), finish(). Connectivity is found by detect() and kept; it is a function of the particles'
 /// positions at detection alone, which travel with them, so redistributing or restarting does not change it.
+///
+/// Where the solid attracts the liquid (method.md, 6b) the contact's owner is this one's too: there the boundary is at
+/// hand and takes its part of the forces. Otherwise contact is never asked for anything.
 class SurfaceTensionStep {
  public:
   SurfaceTensionStep(const Communicator& communicator, const Case& input, const CubicSpline& kernel);
@@ -37,17 +44,18 @@ class SurfaceTensionStep {
   double largest_squared_displacement() const { return detection_displacement_ * detection_displacement_; }
 
   /// Collective. Takes the present positions as those of detection, and finds the surface's arcs in them.
-  void detect(FluidParticles& fluid, Distribution& distribution);
+  void detect(FluidParticles& fluid, const SolidParticles& solid, Distribution& distribution, ContactStep& contact);
   /// Collective. Brings the band along the surface to its owner; after detect() and after every redistribution.
-  void regather(const FluidParticles& fluid);
+  void regather(const FluidParticles& fluid, const ContactStep& contact);
 
   /// Collective. After the first redistribution of a restored run: the curves of the last detection, if there was one.
-  void recover(FluidParticles& fluid, Distribution& distribution);
+  void recover(FluidParticles& fluid, Distribution& distribution, const ContactStep& contact);
 
   /// Sends the band's positions to the owner.
   void start(const FluidParticles& fluid);
-  /// At the owner: surface points, forces and their shares; starts sending them back.
-  void work();
+  /// At the owner: surface points, forces and their shares; starts sending them back. If the solid attracts the liquid,
+  /// contact must have received, and gets forces on the boundary.
+  void work(ContactStep& contact);
   /// Adds the accelerations to the band's rows.
   void finish(FluidParticles& fluid);
 
@@ -55,6 +63,12 @@ class SurfaceTensionStep {
   /// Length of curve that came or went at once as the surface was detected anew, so far, m: no force did that work. The
   /// same on every rank.
   double reconnected_length() const { return reconnected_length_; }
+  /// Likewise of the base on a solid that attracts the liquid, m.
+  double reconnected_base() const { return reconnected_base_; }
+  /// W, N/m: energy per width of the base; 0 where the solid does not attract the liquid.
+  double work_of_adhesion() const { return adhesion_parameters_.work; }
+  /// At the owner: what adhesion does to the solid.
+  const AdhesionSummary& adhesion() const { return adhesion_summary_; }
   /// At the owner, of the instant last worked on.
   SurfaceReport report() const;
 
@@ -67,7 +81,10 @@ class SurfaceTensionStep {
   void find_arcs(FluidParticles& fluid, Distribution& distribution);
   void update_points();
   void gather_points(const FluidParticles& fluid);
-  double length_on_all_ranks() const;
+  struct Extent {
+    double length = 0, base = 0;  // m
+  };
+  Extent extent_on_all_ranks(const ContactStep& contact);
 
   const Communicator& communicator_;
   CubicSpline kernel_;
@@ -81,7 +98,7 @@ class SurfaceTensionStep {
   std::vector<Vector> arc_centres_;
 
   bool has_curves_ = false;
-  double reconnected_length_ = 0;
+  double reconnected_length_ = 0, reconnected_base_ = 0;
 
   // This rank's part of the band, and what comes back for it.
   InterfaceGather gather_;
@@ -95,6 +112,14 @@ class SurfaceTensionStep {
   std::vector<double> x_, y_, mass_, acceleration_x_, acceleration_y_;
   std::vector<Vector> node_positions_, points_, forces_;
   std::size_t lost_points_ = 0;
+
+  // Where the solid attracts the liquid.
+  bool is_wetting_;
+  AdhesionParameters adhesion_parameters_;
+  double adhesion_reach_;
+  Adhesion adhesion_;
+  AdhesionSummary adhesion_summary_;
+  std::vector<Vector> all_forces_;  // by node, with adhesion
 };
 
 }  // namespace sphdrop

@@ -138,6 +138,51 @@ kind = "rigid_wall"
   EXPECT_LT(shape.largest_change(), 1e-12);
 }
 
+// The same with springs that do not depend on the step: half the step changes nothing, and dampers take energy that is
+// accounted for.
+TEST(RigidBall, OnFixedSpringsReboundsAlikeAtAnyStepAndLosesWhatDampersTake) {
+  const auto impact = [](double step, double damping_ratio) {
+    return watch(fmt::format(R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1.5e-4
+step = {}
+[drop]
+material = "rigid"
+velocity = [0.3, -0.5]
+[solid]
+kind = "rigid_wall"
+[contact]
+stiffness_form = "fixed"
+stiffness = 20.0
+damping_ratio = {}
+)",
+                             step, damping_ratio),
+                 1e-6);
+  };
+  const WatchedRun elastic = impact(5e-8, 0.0), finer = impact(2.5e-8, 0.0), damped = impact(5e-8, 0.2);
+  const double start = elastic.first().kinetic_fluid;
+  double stored = 0, force = 0, force_at_finer = 0;
+  for (const Observation& row : elastic.rows) {
+    stored = std::max(stored, row.contact);
+    force = std::max(force, -row.contact_force_y);
+    EXPECT_LT(std::abs(row.unaccounted), 2e-3 * start) << row.time;
+  }
+  for (const Observation& row : finer.rows) force_at_finer = std::max(force_at_finer, -row.contact_force_y);
+  EXPECT_GT(stored, 0.5 * start);
+  EXPECT_NEAR(force_at_finer / force, 1.0, 0.02);  // Eq 24's would double
+  EXPECT_NEAR(elastic.last().drop_velocity_y / finer.last().drop_velocity_y, 1.0, 1e-3);
+  EXPECT_NEAR(elastic.last().kinetic_fluid / start, 1.0, 1e-4);
+  EXPECT_EQ(elastic.last().dissipated_contact, 0.0);
+  expect_balances(elastic);
+
+  EXPECT_LT(damped.last().kinetic_fluid, 0.98 * start);
+  EXPECT_NEAR(damped.last().kinetic_fluid + damped.last().dissipated_contact, start, 2e-3 * start);
+  for (const Observation& row : damped.rows) EXPECT_LT(std::abs(row.unaccounted), 4e-3 * start) << row.time;
+  expect_balances(damped);
+}
+
 // A square that overhangs the end of a wall, so that but its outermost column of particles is above it.
 WatchedRun corner_impact(int side) {
   constexpr double d = 0.05e-3, half_wall = 1e-3;

@@ -19,6 +19,7 @@ ALLOWED: dict[str, set[str]] = {
     "solid": {"particles", "sph"},
     "contact": {"particles", "sph", "fluid", "solid"},
     "surface_tension": {"particles", "sph", "fluid", "solid"},
+    "wetting": {"particles", "sph", "fluid", "solid", "contact", "surface_tension"},
     "rigid_body": {"particles"},
     "time_integration": {"particles", "sph"},
     "diagnostics": {"particles"},

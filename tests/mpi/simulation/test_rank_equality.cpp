@@ -77,6 +77,26 @@ form = "curvature"
 polynomial_points = 5
 )";
 
+// Velocities reach the contact too.
+constexpr const char* resisting_contact = R"(
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+diameter = 0.6e-3
+velocity = [0.4, -2.0]
+gap = 1e-6
+[solid]
+kind = "cantilever"
+length = 2e-3
+[contact]
+stiffness_form = "fixed"
+damping_ratio = 0.1
+wall_drag = 20.0
+)";
+
 constexpr const char* oscillating_drop = R"(
 [resolution]
 spacing = 0.05e-3
@@ -210,6 +230,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, RankEquality,
                          testing::Values(EqualityCase{"cantilever", cantilever, 400, 0x1ae4f7199c2c265d},
                                          EqualityCase{"fixed_fixed", fixed_fixed, 300, 0xba133bd81299003b},
                                          EqualityCase{"rigid_wall", rigid_wall, 300, 0x05099cca370879b8},
+                                         EqualityCase{"resisting_contact", resisting_contact, 300, 0x9b54e3511de240dc},
                                          EqualityCase{"oscillating_drop", oscillating_drop, 200, 0x10767d66cf98d385},
                                          EqualityCase{"square_drop", square_drop, 150, 0x523fc3a1d17f4e1d},
                                          EqualityCase{"free_vibration", free_vibration, 200, 0x4559d4d28dc930db},

@@ -63,7 +63,10 @@ TEST(Defaults, AreThePapersScheme) {
   EXPECT_EQ(c.solid.clamp_length, 0.5e-3);
   EXPECT_EQ(c.solid.clamp_layers, 3);
   EXPECT_EQ(c.solid.damping_rate, 0);
+  EXPECT_EQ(c.contact.stiffness_form, ContactStiffness::time_step);
   EXPECT_EQ(c.contact.stiffness, 0.1);
+  EXPECT_EQ(c.contact.damping_ratio, 0);
+  EXPECT_EQ(c.contact.wall_drag, 0);
   EXPECT_EQ(c.contact.distance_ratio, 1);
   EXPECT_EQ(c.contact.overlap_limit, 0.2);
   EXPECT_EQ(c.surface_tension.form, SurfaceTensionForm::conservative);
@@ -93,6 +96,16 @@ TEST(DerivedDefaults, FollowFromTheOthers) {
   EXPECT_EQ(read({"drop.material=rigid", "drop.density=2500"}).drop.density, 2500);
   EXPECT_EQ(read({"solid.thickness=0.5e-3"}).solid.clamp_length, 1e-3);
   EXPECT_EQ(read({"solid.thickness=0.5e-3", "solid.clamp_length=0.4e-3"}).solid.clamp_length, 0.4e-3);
+}
+
+TEST(DerivedDefaults, TheContactsFollowItsForm) {
+  const Case fixed = read({"contact.stiffness_form=fixed"});
+  EXPECT_EQ(fixed.contact.stiffness, 0.3);
+  EXPECT_EQ(fixed.contact.overlap_limit, 0.5);
+  EXPECT_EQ(read({"contact.stiffness_form=fixed", "contact.stiffness=0.1"}).contact.stiffness, 0.1);
+  EXPECT_DOUBLE_EQ(fixed.contact_modulus(), 1000.0 * 50 * 50);
+  EXPECT_DOUBLE_EQ(read({"drop.material=rigid"}).contact_modulus(), 300e6 / (3 * (1 - 0.6)));
+  EXPECT_DOUBLE_EQ(read({"drop.material=rigid", "solid.kind=rigid_wall"}).contact_modulus(), 1000.0 * 50 * 50);
 }
 
 const std::vector<std::string> beam_alone = {"drop.shape=none", "drop.velocity=[0, 0]", "time.end=10"};

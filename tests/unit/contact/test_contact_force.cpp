@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "contact/contact_force.hpp"
 
 namespace sphdrop {
@@ -7,6 +9,49 @@ namespace {
 
 TEST(SpringRate, IsTheStiffnessOverTheSquaredTimeStep) {
   EXPECT_DOUBLE_EQ(time_step_spring_rate(0.1, 5e-9), 4e15);
+}
+
+TEST(SpringRate, OfAFixedStiffnessGivesEveryParticleTheSameForcePerOverlap) {
+  const double stiffness = 7.5e5;  // 0.3 rho c_f^2 of water at 50 m/s, Pa
+  for (const double mass : {6.25e-7, 1.3e-6}) {
+    const FootPoint foot{.segment = 0, .normal = {0, 1}, .distance = 2e-5};
+    const Vector f = contact_acceleration(foot, fixed_spring_rate(stiffness, mass), 2.5e-5);
+    EXPECT_DOUBLE_EQ(mass * f.y, stiffness * (2.5e-5 - 2e-5));
+    EXPECT_DOUBLE_EQ(mass * contact_energy(foot, fixed_spring_rate(stiffness, mass), 2.5e-5),
+                     0.5 * stiffness * (2.5e-5 - 2e-5) * (2.5e-5 - 2e-5));
+  }
+}
+
+TEST(ContactDamping, OpposesTheNormalVelocityAndNeverPulls) {
+  const double k = 50.0, d0 = 1.0, ratio = 0.1;
+  const FootPoint foot{.segment = 0, .normal = {0.6, 0.8}, .distance = 0.9};
+  const double damper = 2.0 * ratio * std::sqrt(k);
+  const Vector inwards = contact_damping(foot, k, d0, ratio, {-0.6 * 3 + 0.8, -0.8 * 3 - 0.6});  // 3 in, 1 along
+  EXPECT_NEAR(inwards.x, damper * 3 * 0.6, 1e-13);
+  EXPECT_NEAR(inwards.y, damper * 3 * 0.8, 1e-13);
+  const Vector slowly_out = contact_damping(foot, k, d0, ratio, 0.3 * foot.normal);
+  EXPECT_NEAR(dot(slowly_out, foot.normal), -damper * 0.3, 1e-13);
+  const Vector fast_out = contact_damping(foot, k, d0, ratio, 300.0 * foot.normal);
+  EXPECT_NEAR(length(fast_out + contact_acceleration(foot, k, d0)), 0.0, 1e-13);
+  EXPECT_EQ(contact_damping({.normal = {0, 1}, .distance = 1.0}, k, d0, ratio, {0, -5}), Vector{});
+}
+
+TEST(WallDrag, ActsAlongTheWallOnly) {
+  FootPoint foot{.segment = 0, .normal = {0.6, 0.8}, .distance = 0.9};
+  EXPECT_EQ(length(wall_drag(foot, 7.0, 2.0 * foot.normal)), 0.0);
+  const Vector along{0.8, -0.6};
+  const Vector drag = wall_drag(foot, 7.0, 2.0 * along - 5.0 * foot.normal);
+  EXPECT_NEAR(length(drag + 14.0 * along), 0.0, 1e-13);
+  foot.at_vertex = true;
+  EXPECT_EQ(wall_drag(foot, 7.0, along), Vector{});
+}
+
+TEST(SharedMoment, IsAPairOfOppositeForces) {
+  const Vector a{0.3, 0.1}, b{1.1, 0.7};
+  const SharedForce pair = shared_moment(-2.5, a, b);
+  EXPECT_EQ(pair.first, -pair.second);
+  EXPECT_NEAR(cross(a, pair.first) + cross(b, pair.second), -2.5, 1e-14);
+  EXPECT_NEAR(dot(pair.first, b - a), 0.0, 1e-14);
 }
 
 TEST(ContactAcceleration, GrowsWithTheOverlapAlongTheNormal) {

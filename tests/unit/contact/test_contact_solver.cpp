@@ -142,6 +142,82 @@ TEST(ContactSolver, ConservesLinearAndAngularMomentum) {
   EXPECT_NEAR(summary.moment_on_solid, moment_on_solid, 1e-14 * magnitude * 60);
 }
 
+// Dampers and drag too: what the particles lose, the solid gets, moment included, and no power is lost but as heat.
+TEST(ContactSolver, ConservesMomentumAndEnergyWithDampersAndDrag) {
+  Scene scene(60, 600, 3);
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> speeds(-1, 1);
+  std::vector<double> velocity_x, velocity_y, vertex_velocity_x, vertex_velocity_y;
+  for (std::size_t i = 0; i < scene.x.size(); ++i) {
+    velocity_x.push_back(speeds(random));
+    velocity_y.push_back(speeds(random));
+  }
+  for (std::size_t v = 0; v < scene.vertex_x.size(); ++v) {
+    vertex_velocity_x.push_back(speeds(random));
+    vertex_velocity_y.push_back(speeds(random));
+  }
+  ContactSolver solver;
+  solver.rebuild(scene.x, scene.y, scene.vertex_x, scene.vertex_y, scene.segments, 6.0);
+  const auto work = [&](const ContactParameters& law) {
+    scene.clear();
+    return solver.apply(
+        {scene.x, scene.y, scene.mass, scene.acceleration_x, scene.acceleration_y, velocity_x, velocity_y},
+        {scene.vertex_x, scene.vertex_y, scene.force_x, scene.force_y, vertex_velocity_x, vertex_velocity_y}, law);
+  };
+  const auto power = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < scene.x.size(); ++i)
+      sum += scene.mass[i] * (scene.acceleration_x[i] * velocity_x[i] + scene.acceleration_y[i] * velocity_y[i]);
+    for (std::size_t v = 0; v < scene.vertex_x.size(); ++v)
+      sum += scene.force_x[v] * vertex_velocity_x[v] + scene.force_y[v] * vertex_velocity_y[v];
+    return sum;
+  };
+  const ContactParameters springs{.contact_distance = 1.0, .overlap_limit = 0.2, .spring_stiffness = 40.0};
+  ContactParameters dampers = springs;
+  dampers.damping_ratio = 0.3;
+  EXPECT_EQ(work(springs).dissipation, 0.0);
+  const double by_springs = power();
+  const ContactSummary damped = work(dampers);
+  EXPECT_GT(damped.dissipation, 1.0);
+  EXPECT_NEAR(power(), by_springs - damped.dissipation, 1e-11 * std::abs(by_springs));
+
+  ContactParameters both = dampers;
+  both.drag_rate = 2.5;
+  const ContactSummary summary = work(both);
+  EXPECT_GT(summary.dissipation, damped.dissipation + 1.0);
+  Vector total, on_solid;
+  double moment = 0, moment_on_solid = 0, magnitude = 0;
+  for (std::size_t i = 0; i < scene.x.size(); ++i) {
+    const Vector force = scene.mass[i] * Vector{scene.acceleration_x[i], scene.acceleration_y[i]};
+    total += force;
+    moment += cross({scene.x[i], scene.y[i]}, force);
+    magnitude += length(force);
+  }
+  for (std::size_t v = 0; v < scene.vertex_x.size(); ++v) {
+    const Vector force{scene.force_x[v], scene.force_y[v]};
+    on_solid += force;
+    moment_on_solid += cross({scene.vertex_x[v], scene.vertex_y[v]}, force);
+  }
+  EXPECT_NEAR(length(total + on_solid), 0.0, 1e-14 * magnitude);
+  EXPECT_NEAR(moment + moment_on_solid, 0.0, 1e-14 * magnitude * 60);
+  EXPECT_NEAR(summary.moment_on_solid, moment_on_solid, 1e-14 * magnitude * 60);
+}
+
+TEST(ContactSolver, FixedSpringsPushLightAndHeavyParticlesWithTheSameForce) {
+  Scene scene(10, 0, 4);
+  scene.x = {3.2, 3.2};
+  scene.y = {10.2 - 1e-4 * 3.2 * 3.2, 10.2 - 1e-4 * 3.2 * 3.2};
+  scene.mass = {2.0, 0.5};
+  scene.clear();
+  ContactSolver solver;
+  solver.rebuild(scene.x, scene.y, scene.vertex_x, scene.vertex_y, scene.segments, 1.5);
+  const ContactSummary summary = solver.apply(
+      scene.particles(), scene.vertices(), {.contact_distance = 1.0, .overlap_limit = 0.2, .spring_stiffness = 40.0});
+  EXPECT_NEAR(2.0 * scene.acceleration_y[0], 40.0 * 0.3, 1e-3);
+  EXPECT_DOUBLE_EQ(0.5 * scene.acceleration_y[1], 2.0 * scene.acceleration_y[0]);
+  EXPECT_NEAR(summary.energy, 2 * 0.5 * 40.0 * 0.3 * 0.3, 1e-3);
+}
+
 TEST(ContactSolver, AddsToWhatIsThere) {
   Scene scene(10, 0, 4);
   scene.x = {3.2};
