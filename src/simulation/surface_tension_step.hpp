@@ -11,6 +11,7 @@
 #include "surface_tension/boundary_detection.hpp"
 #include "surface_tension/force_sharing.hpp"
 #include "surface_tension/surface_curve.hpp"
+#include "surface_tension/surface_force.hpp"
 
 namespace sphdrop {
 
@@ -22,6 +23,7 @@ struct SurfaceReport {
   double node_count = 0;
   double curve_count = 0;  ///< of three nodes or more
   double net_force = 0;    ///< |sum of the tension's forces| over the sum of their magnitudes
+  double area = 0;         ///< within the curves, m2
   double lost_points = 0;  ///< surface points without a particle to act on
   double unmatched_arcs = 0;
 };
@@ -30,24 +32,26 @@ struct SurfaceReport {
 /// positions at detection alone, which travel with them, so redistributing or restarting does not change it.
 class SurfaceTensionStep {
  public:
-  SurfaceTensionStep(const Communicator& communicator, const Case& input, const CubicSpline& kernel);
+  SurfaceTensionStep(const Communicator& communicator, const Case& input, const SmoothingKernel& kernel);
 
   bool is_enabled() const { return form_ != SurfaceTensionForm::none; }
   /// The squared displacement from detection_position at which detect() is due, m2.
   double largest_squared_displacement() const { return detection_displacement_ * detection_displacement_; }
 
   /// Collective. Takes the present positions as those of detection, and finds the surface's arcs in them.
-  void detect(FluidParticles& fluid, Distribution& distribution);
+  /// `gauge_pressure` (Pa) is for the ledger.
+  void detect(FluidParticles& fluid, Distribution& distribution, double gauge_pressure);
   /// Collective. Brings the band along the surface to its owner; after detect() and after every redistribution.
-  void regather(const FluidParticles& fluid);
+  void regather(FluidParticles& fluid);
 
   /// Collective. After the first redistribution of a restored run: the curves of the last detection, if there was one.
   void recover(FluidParticles& fluid, Distribution& distribution);
 
   /// Sends the band's positions to the owner.
   void start(const FluidParticles& fluid);
-  /// At the owner: surface points, forces and their shares; starts sending them back.
-  void work();
+  /// At the owner: surface points, forces and their shares; starts sending them back. The drop's `gauge_pressure` (Pa)
+  /// pushes its surface outwards.
+  void work(double gauge_pressure);
   /// Adds the accelerations to the band's rows.
   void finish(FluidParticles& fluid);
 
@@ -55,6 +59,12 @@ class SurfaceTensionStep {
   /// Length of curve that came or went at once as the surface was detected anew, so far, m: no force did that work. The
   /// same on every rank.
   double reconnected_length() const { return reconnected_length_; }
+  /// Likewise -gauge pressure times the area within the curves, J/m.
+  double reconnected_gauge_energy() const { return reconnected_gauge_energy_; }
+  /// Counts both anew.
+  void start_ledger() { reconnected_length_ = reconnected_gauge_energy_ = 0; }
+  /// Within the curves, at the owner, of the instant last worked on, m2; 0 at the others.
+  double enclosed_area() const { return total_area(curves_, points_); }
   /// At the owner, of the instant last worked on.
   SurfaceReport report() const;
 
@@ -66,22 +76,28 @@ class SurfaceTensionStep {
  private:
   void find_arcs(FluidParticles& fluid, Distribution& distribution);
   void update_points();
+  void find_arc_normals();
+  void orient_along_surface(FluidParticles& fluid) const;
   void gather_points(const FluidParticles& fluid);
-  double length_on_all_ranks() const;
+  struct Extent {
+    double length = 0, area = 0;  // m, m2
+  };
+  Extent extent_on_all_ranks() const;
 
   const Communicator& communicator_;
-  CubicSpline kernel_;
+  SmoothingKernel kernel_;
   SurfaceTensionForm form_;
   double coefficient_, spacing_, support_, detection_displacement_;
   int polynomial_points_;
+  bool orients_particles_;
   ArcFinder finder_;
 
   // On every rank: the arcs of the last detection and where their particles were.
   std::vector<Arc> arcs_;
-  std::vector<Vector> arc_centres_;
+  std::vector<Vector> arc_centres_, arc_normals_;
 
   bool has_curves_ = false;
-  double reconnected_length_ = 0;
+  double reconnected_length_ = 0, reconnected_gauge_energy_ = 0;
 
   // This rank's part of the band, and what comes back for it.
   InterfaceGather gather_;
