@@ -17,6 +17,10 @@ enum class Clamp { strips, ideal };
 enum class DeviatoricTrace { plane_strain, two_dimensional };
 enum class ContactStiffness { time_step, fixed };
 enum class SurfaceTensionForm { none, conservative, curvature };
+enum class KernelShape { cubic_spline, wendland_c2 };
+enum class ViscosityForm { artificial, physical };
+enum class DensityTreatment { none, moving_least_squares, density_diffusion };
+enum class Switch { off, on };
 
 /// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
 /// the table in config/parameter_table.cpp and nowhere else.
@@ -27,8 +31,9 @@ struct Case {
   Mode mode = Mode::paper;  ///< which scheme the automatic parameters choose
 
   struct Resolution {
-    double spacing = 0;          ///< d, m
-    double smoothing_ratio = 0;  ///< h/d
+    double spacing = 0;                              ///< d, m
+    double smoothing_ratio = 0;                      ///< h/d
+    KernelShape kernel = KernelShape::cubic_spline;  ///< of the liquid
     bool operator==(const Resolution&) const = default;
   } resolution;
 
@@ -42,12 +47,19 @@ struct Case {
   } time;
 
   struct Fluid {
-    double density = 0;      ///< rho0, kg/m3
-    double viscosity = 0;    ///< mu, Pa s; enters Eq 42 only
+    double density = 0;    ///< rho0, kg/m3
+    double viscosity = 0;  ///< mu, Pa s; enters Eq 42, and the forces of the physical form
+    ViscosityForm viscosity_form = ViscosityForm::artificial;
     double sound_speed = 0;  ///< c_f, m/s
     double artificial_viscosity_alpha = 0;
     double artificial_viscosity_beta = 0;
+    DensityTreatment density_treatment = DensityTreatment::moving_least_squares;
     std::int64_t density_correction_interval = 0;  ///< steps; 0: never
+    double density_diffusion = 0;                  ///< delta
+    Switch gauge_pressure = Switch::off;
+    double gauge_relaxation_time = 0;  ///< s
+    Switch shifting = Switch::off;
+    std::int64_t shifting_interval = 0;  ///< steps
     bool operator==(const Fluid&) const = default;
   } fluid;
 
@@ -65,6 +77,7 @@ struct Case {
     double oscillation_velocity = 0;  ///< V0, m/s
     double oscillation_radius = 0;    ///< r0, m
     double initial_spin = 0;          ///< of a rigid drop, rad/s, counterclockwise
+    double relaxation_time = 0;       ///< s: a liquid drop comes to rest for so long before it starts at t = 0
     /// Moved as one rigid body (Sec. 4.4).
     bool is_rigid() const { return shape != DropShape::none && material == DropMaterial::rigid; }
     /// Has pressure, viscosity and surface tension.

@@ -85,6 +85,35 @@ Verdict density_of_a_liquid(const Case& values) {
       values.drop.density, values.fluid.density);
 }
 
+Verdict no_surface_for(const Case& values, Switch ingredient, const char* key) {
+  const bool has_surface =
+      values.surface_tension.form != SurfaceTensionForm::none && values.surface_tension.coefficient > 0;
+  if (!values.drop.is_liquid() || ingredient == Switch::off || has_surface) return {};
+  return fmt::format(
+      "{} = \"on\" needs the liquid's surface, which surface tension finds: set it to \"off\", or give "
+      "surface_tension.form and a coefficient > 0",
+      key);
+}
+
+Verdict gauge_without_surface(const Case& values) {
+  return no_surface_for(values, values.fluid.gauge_pressure, "fluid.gauge_pressure");
+}
+
+Verdict shifting_without_surface(const Case& values) {
+  return no_surface_for(values, values.fluid.shifting, "fluid.shifting");
+}
+
+Verdict relaxation_of_another_drop(const Case& values) {
+  if (values.drop.relaxation_time == 0 || values.drop.is_liquid()) return {};
+  return "drop.relaxation_time needs a liquid drop: leave it out, or give drop.shape and drop.material = \"liquid\"";
+}
+
+Verdict relaxation_beside_a_swinging_beam(const Case& values) {
+  if (values.drop.relaxation_time == 0 || values.solid.initial_tip_velocity == 0) return {};
+  return "solid.initial_tip_velocity and drop.relaxation_time exclude each other: the beam would swing while the drop "
+         "comes to rest; set one of them to 0";
+}
+
 Verdict drop_too_small(const Case& values) {
   const double d = values.resolution.spacing;
   if (!has_drop(values) || values.drop.diameter >= 4 * d * (1 - whole_number_tolerance)) return {};
@@ -270,6 +299,10 @@ const std::vector<Check>& contradiction_checks() {
       {{"drop.oscillation_velocity", "drop.material"}, oscillation_of_a_rigid_drop},
       {{"drop.initial_spin", "drop.material"}, spin_of_a_liquid},
       {{"drop.density", "drop.material", "fluid.density"}, density_of_a_liquid},
+      {{"fluid.gauge_pressure", "surface_tension.form", "surface_tension.coefficient"}, gauge_without_surface},
+      {{"fluid.shifting", "surface_tension.form", "surface_tension.coefficient"}, shifting_without_surface},
+      {{"drop.relaxation_time", "drop.shape", "drop.material"}, relaxation_of_another_drop},
+      {{"drop.relaxation_time", "solid.initial_tip_velocity"}, relaxation_beside_a_swinging_beam},
       {{"drop.diameter", "resolution.spacing", "drop.shape"}, drop_too_small},
       {{"solid.length", "solid.kind"}, beam_without_length},
       {{"solid.thickness", "resolution.spacing", "solid.kind"}, rows_not_whole},

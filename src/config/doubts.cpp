@@ -61,15 +61,42 @@ Verdict slow_sound(const Case& values) {
 }
 
 Verdict inviscid(const Case& values) {
-  if (!values.drop.is_liquid() || values.fluid.artificial_viscosity_alpha > 0) return {};
+  const Case::Fluid& fluid = values.fluid;
+  if (!values.drop.is_liquid() || fluid.viscosity_form == ViscosityForm::physical ||
+      fluid.artificial_viscosity_alpha > 0)
+    return {};
   return "fluid.artificial_viscosity_alpha = 0: the drop's particles will clump";
 }
 
+Verdict inviscid_physically(const Case& values) {
+  const Case::Fluid& fluid = values.fluid;
+  if (!values.drop.is_liquid() || fluid.viscosity_form == ViscosityForm::artificial || fluid.viscosity > 0) return {};
+  return "fluid.viscosity = 0 with fluid.viscosity_form = \"physical\": nothing damps the liquid, and its particles "
+         "will clump";
+}
+
 Verdict uncorrected_density(const Case& values) {
-  if (!values.drop.is_liquid() || values.fluid.density_correction_interval > 0) return {};
-  return "fluid.density_correction_interval = 0: without the correction all particles pair up and the curvature's "
-         "noise "
-         "triples";
+  const Case::Fluid& fluid = values.fluid;
+  const bool is_corrected =
+      fluid.density_treatment == DensityTreatment::moving_least_squares && fluid.density_correction_interval > 0;
+  const bool diffuses = fluid.density_treatment == DensityTreatment::density_diffusion && fluid.density_diffusion > 0;
+  if (!values.drop.is_liquid() || is_corrected || diffuses) return {};
+  const char* cause = fluid.density_treatment == DensityTreatment::none ? "fluid.density_treatment = \"none\""
+                      : fluid.density_treatment == DensityTreatment::density_diffusion
+                          ? "fluid.density_diffusion = 0"
+                          : "fluid.density_correction_interval = 0";
+  return fmt::format("{}: without the correction all particles pair up and the curvature's noise triples", cause);
+}
+
+// It falls off faster than the spline: at the same h its sums rest on fewer neighbours and are noisier.
+Verdict narrow_wendland(const Case& values) {
+  if (!values.drop.is_liquid() || values.resolution.kernel != KernelShape::wendland_c2 ||
+      values.resolution.smoothing_ratio >= 1.3)
+    return {};
+  return fmt::format(
+      "resolution.smoothing_ratio = {} is narrow for resolution.kernel = \"wendland_c2\", which falls off faster than "
+      "the spline: take 1.5",
+      values.resolution.smoothing_ratio);
 }
 
 Verdict stubby_beam(const Case& values) {
@@ -87,7 +114,9 @@ const std::vector<Check>& doubt_checks() {
       {{"time.sound_cfl", "solid.formulation", "time.step"}, long_step_of_cells},
       {{"fluid.sound_speed", "drop.velocity", "drop.oscillation_velocity", "gravity.acceleration"}, slow_sound},
       {{"fluid.artificial_viscosity_alpha"}, inviscid},
+      {{"fluid.viscosity"}, inviscid_physically},
       {{"fluid.density_correction_interval"}, uncorrected_density},
+      {{"resolution.smoothing_ratio"}, narrow_wendland},
   };
   return checks;
 }

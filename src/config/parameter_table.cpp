@@ -56,6 +56,10 @@ constexpr std::string_view clamp_words[] = {"strips", "ideal"};
 constexpr std::string_view trace_words[] = {"plane_strain", "two_dimensional"};
 constexpr std::string_view stiffness_words[] = {"time_step", "fixed"};
 constexpr std::string_view form_words[] = {"none", "conservative", "curvature"};
+constexpr std::string_view kernel_words[] = {"cubic_spline", "wendland_c2"};
+constexpr std::string_view viscosity_words[] = {"artificial", "physical"};
+constexpr std::string_view density_words[] = {"none", "moving_least_squares", "density_diffusion"};
+constexpr std::string_view switch_words[] = {"off", "on"};
 
 constexpr std::int64_t stencil_choices[] = {3, 5};
 
@@ -85,6 +89,10 @@ constexpr Parameter table[] = {
     {"resolution.smoothing_ratio", "h/d_ini", "-",
      real<&C::resolution, &C::Resolution::smoothing_ratio>(1.2, {1, true, 2, true}),
      "smoothing length over particle spacing"},
+    {"resolution.kernel", "W", "-",
+     word<&C::resolution, &C::Resolution::kernel>(kernel_words, KernelShape::cubic_spline),
+     "smoothing kernel of the liquid: cubic_spline = Eq 11; wendland_c2 has the same support 2h and wants a "
+     "smoothing_ratio of 1.5. The solid's is the spline"},
 
     {"time.end", "t", "s", real<&C::time, &C::Time::end>(Required{}, positive(largest_time)),
      "simulated time at which the run ends"},
@@ -105,19 +113,41 @@ constexpr Parameter table[] = {
     {"fluid.density", "rho0", "kg/m3", real<&C::fluid, &C::Fluid::density>(1000.0, positive(largest_density)),
      "the liquid's density at rest"},
     {"fluid.viscosity", "mu", "Pa s", real<&C::fluid, &C::Fluid::viscosity>(0.001, non_negative(1e4)),
-     "the liquid's viscosity; enters the time step only (Eq 42)"},
+     "the liquid's viscosity; enters the time step (Eq 42), and the forces where viscosity_form = physical"},
+    {"fluid.viscosity_form", "", "-",
+     word<&C::fluid, &C::Fluid::viscosity_form>(viscosity_words, ViscosityForm::artificial),
+     "artificial = Eqs 17, 18 with alpha and beta; physical = that of a Newtonian liquid with fluid.viscosity, without "
+     "alpha and beta (Monaghan & Cleary)"},
     {"fluid.sound_speed", "c_f", "m/s", real<&C::fluid, &C::Fluid::sound_speed>(50.0, positive(largest_speed)),
      "the liquid's numerical sound speed (Eq 4), about 50 times the largest speed expected; with a rigid drop and no "
      "beam it still sets the time step (Eq 40)"},
     {"fluid.artificial_viscosity_alpha", "alpha", "-",
      real<&C::fluid, &C::Fluid::artificial_viscosity_alpha>(0.1, non_negative(100)),
-     "linear artificial viscosity of the liquid (Eq 17)"},
+     "linear artificial viscosity of the liquid (Eq 17), where viscosity_form = artificial"},
     {"fluid.artificial_viscosity_beta", "beta", "-",
      real<&C::fluid, &C::Fluid::artificial_viscosity_beta>(0.0, non_negative(100)),
-     "quadratic artificial viscosity of the liquid (Eq 17)"},
+     "quadratic artificial viscosity of the liquid (Eq 17), where viscosity_form = artificial"},
+    {"fluid.density_treatment", "", "-",
+     word<&C::fluid, &C::Fluid::density_treatment>(density_words, DensityTreatment::moving_least_squares),
+     "what keeps the density smooth: moving_least_squares = Eq 13 now and then, density_diffusion = delta-SPH "
+     "(Antuono et al. 2010) in every step"},
     {"fluid.density_correction_interval", "", "steps",
      integer<&C::fluid, &C::Fluid::density_correction_interval>(20, 0, most_steps),
      "steps between density corrections by moving least squares (Eq 13); 0 = never"},
+    {"fluid.density_diffusion", "delta", "-", real<&C::fluid, &C::Fluid::density_diffusion>(0.1, non_negative(1)),
+     "strength of the density diffusion"},
+    {"fluid.gauge_pressure", "", "-", word<&C::fluid, &C::Fluid::gauge_pressure>(switch_words, Switch::off),
+     "on = the drop's pressure is counted from a reference near its smallest, which acts on its surface: the "
+     "particles' "
+     "lattice does not stiffen under it"},
+    {"fluid.gauge_relaxation_time", "", "s",
+     real<&C::fluid, &C::Fluid::gauge_relaxation_time>(20e-6, positive(largest_time)),
+     "time in which that reference follows the drop's pressure"},
+    {"fluid.shifting", "", "-", word<&C::fluid, &C::Fluid::shifting>(switch_words, Switch::off),
+     "on = particles are shifted a little from crowded to empty places, along the surface near it, so that they do not "
+     "clump"},
+    {"fluid.shifting_interval", "", "steps", integer<&C::fluid, &C::Fluid::shifting_interval>(4, 1, most_steps),
+     "steps between shifts"},
 
     {"drop.shape", "", "-", word<&C::drop, &C::Drop::shape>(shape_words, DropShape::round),
      "the drop's shape at the start"},
@@ -152,6 +182,9 @@ constexpr Parameter table[] = {
      "decay length of the oscillating drop's initial velocity field"},
     {"drop.initial_spin", "", "rad/s", real<&C::drop, &C::Drop::initial_spin>(0.0, either_sign(largest_spin)),
      "a rigid drop's angular velocity at the start, counterclockwise"},
+    {"drop.relaxation_time", "", "s", real<&C::drop, &C::Drop::relaxation_time>(0.0, non_negative(largest_time)),
+     "so long before t = 0 a liquid drop is left to itself at rest, damped and without gravity, so that its particles "
+     "settle; its velocity is given to it at t = 0"},
 
     {"solid.kind", "", "-", word<&C::solid, &C::Solid::kind>(solid_words, SolidKind::none), "what the drop meets"},
     {"solid.length", "L", "m",

@@ -15,8 +15,11 @@ double moving_least_squares_density(const MovingLeastSquaresSums<double>& s, dou
   return (c0 * s.m0 + cx * s.mx + cy * s.my) / determinant;
 }
 
-void moving_least_squares_densities(const FluidParticles& fluid, const SlicedNeighbours& list,
-                                    const CubicSpline& kernel, double spacing, std::vector<double>& corrected) {
+namespace {
+
+template <class Kernel>
+void densities_with(const Kernel& kernel, const FluidParticles& fluid, const SlicedNeighbours& list, double spacing,
+                    std::vector<double>& corrected) {
   const Pack inverse_spacing(1.0 / spacing);
   const Pack own_value(kernel.value(0.0));
   const double* x = fluid.position.x.data();
@@ -53,6 +56,13 @@ void moving_least_squares_densities(const FluidParticles& fluid, const SlicedNei
       }
     }
   }
+}
+
+}  // namespace
+
+void moving_least_squares_densities(const FluidParticles& fluid, const SlicedNeighbours& list,
+                                    const SmoothingKernel& kernel, double spacing, std::vector<double>& corrected) {
+  std::visit([&](const auto& chosen) { densities_with(chosen, fluid, list, spacing, corrected); }, kernel);
 }
 
 }  // namespace sphdrop

@@ -39,6 +39,6 @@ double moving_least_squares_density(const MovingLeastSquaresSums<double>& sums, 
 /// Corrected densities of the owned rows, from position, density and mass of all rows; kg/m3. `corrected` is indexed by
 /// row and holds at least all rows. The particles themselves are left as they are.
 void moving_least_squares_densities(const FluidParticles& fluid, const SlicedNeighbours& list,
-                                    const CubicSpline& kernel, double spacing, std::vector<double>& corrected);
+                                    const SmoothingKernel& kernel, double spacing, std::vector<double>& corrected);
 
 }  // namespace sphdrop

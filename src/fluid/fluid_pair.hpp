@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "sph/artificial_viscosity.hpp"
 #include "sph/kernel.hpp"
+#include "sph/physical_viscosity.hpp"
 
 namespace sphdrop {
 
@@ -24,30 +26,37 @@ struct FluidRates {
   T dissipation_rate{0.0};  ///< specific heating by Pi, W/kg
 };
 
+/// What the pair formula is made of: CubicSpline or WendlandC2, and ArtificialViscosity or PhysicalViscosity.
+template <class Kernel = CubicSpline, class Viscosity = ArtificialViscosity>
 struct FluidPairParameters {
-  CubicSpline kernel;
-  ArtificialViscosity viscosity;
+  Kernel kernel;
+  Viscosity viscosity;
 };
 
+/// One of them, as a case has chosen.
+using AnyFluidPairParameters = std::variant<
+    FluidPairParameters<CubicSpline, ArtificialViscosity>, FluidPairParameters<WendlandC2, ArtificialViscosity>,
+    FluidPairParameters<CubicSpline, PhysicalViscosity>, FluidPairParameters<WendlandC2, PhysicalViscosity>>;
+
 /// Adds what j contributes to i. Out of the kernel's support, and for j = i, that is an exact zero.
-template <class T>
-[[gnu::always_inline]] inline void add_fluid_pair(const FluidPairParameters& parameters, const FluidState<T>& i,
-                                                  const T& inverse_density_i, const FluidState<T>& j,
-                                                  FluidRates<T>& rates) {
+template <class Kernel, class Viscosity, class T>
+[[gnu::always_inline]] inline void add_fluid_pair(const FluidPairParameters<Kernel, Viscosity>& parameters,
+                                                  const FluidState<T>& i, const T& inverse_density_i,
+                                                  const FluidState<T>& j, FluidRates<T>& rates) {
   using std::max;
   using std::sqrt;
   const T x = i.x - j.x, y = i.y - j.y;
   const T velocity_x = i.velocity_x - j.velocity_x, velocity_y = i.velocity_y - j.velocity_y;
   const T squared_distance = x * x + y * y;
   const T distance = sqrt(max(squared_distance, T(1e-60)));
-  const T density_sum = i.density + j.density;
-  const InversePair<T> inverse(distance, parameters.viscosity.denominator(squared_distance, density_sum));
+  const T densities = Viscosity::combined(i.density, j.density);
+  const InversePair<T> inverse(distance, parameters.viscosity.denominator(squared_distance, densities));
   const T slope = parameters.kernel.slope(distance) * inverse.first;  // grad W = slope x_ij
   const T velocity_dot_distance = velocity_x * x + velocity_y * y;
   const T velocity_dot_gradient = velocity_dot_distance * slope;
 
   rates.density_rate += j.mass * velocity_dot_gradient;  // (9)
-  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, density_sum, inverse.second);
+  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, densities, inverse.second);
   // (12): m_j (p_i + p_j)/(rho_i rho_j) = V_j (p_i + p_j)/rho_i
   const T force = (j.volume * (i.pressure + j.pressure) * inverse_density_i + viscous) * slope;
   rates.acceleration_x -= force * x;

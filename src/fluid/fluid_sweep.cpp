@@ -14,34 +14,21 @@ constexpr std::size_t padding_records = block_size;
   return {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7]};
 }
 
-void write_record(double* record, const FluidParticles& fluid, std::size_t row) {
+void write_record(double* record, const FluidParticles& fluid, std::size_t row, double gauge_pressure) {
   record[0] = fluid.position.x[row];
   record[1] = fluid.position.y[row];
   record[2] = fluid.velocity.x[row];
   record[3] = fluid.velocity.y[row];
   record[4] = fluid.density[row];
-  record[5] = fluid.pressure[row];
+  record[5] = fluid.pressure[row] - gauge_pressure;
   record[6] = fluid.mass[row];
   record[7] = fluid.mass[row] / fluid.density[row];
 }
 
-}  // namespace
-
-void FluidSweep::resize(const FluidParticles& fluid) {
-  records_.resize((fluid.size() + padding_records) * 8);
-  for (std::size_t row = fluid.size(); row < fluid.size() + padding_records; ++row)
-    write_record(records_.data() + 8 * row, fluid, row);
-}
-
-void FluidSweep::pack(const FluidParticles& fluid, std::span<const RowRange> rows) {
-  for (const RowRange& range : rows)
-    for (std::int32_t row = range.begin; row < range.end; ++row)
-      write_record(records_.data() + 8 * std::int64_t{row}, fluid, static_cast<std::size_t>(row));
-}
-
-void FluidSweep::apply(FluidParticles& fluid, const SlicedNeighbours& list) const {
-  const double* records = records_.data();
-  const FluidPairParameters parameters = parameters_;
+template <class Parameters>
+void sweep(const Parameters& shared_parameters, const double* records, FluidParticles& fluid,
+           const SlicedNeighbours& list) {
+  const Parameters parameters = shared_parameters;
   for (const SlicedNeighbours::Slice& slice : list.slices) {
     for (std::int32_t lane = 0; lane < block_size; lane += pack_size) {
       std::int32_t own_rows[block_size];
@@ -59,6 +46,24 @@ void FluidSweep::apply(FluidParticles& fluid, const SlicedNeighbours& list) cons
       store(rates.dissipation_rate, fluid.dissipation_rate.data() + row);
     }
   }
+}
+
+}  // namespace
+
+void FluidSweep::resize(const FluidParticles& fluid) {
+  records_.resize((fluid.size() + padding_records) * 8);
+  for (std::size_t row = fluid.size(); row < fluid.size() + padding_records; ++row)
+    write_record(records_.data() + 8 * row, fluid, row, 0.0);
+}
+
+void FluidSweep::pack(const FluidParticles& fluid, std::span<const RowRange> rows, double gauge_pressure) {
+  for (const RowRange& range : rows)
+    for (std::int32_t row = range.begin; row < range.end; ++row)
+      write_record(records_.data() + 8 * std::int64_t{row}, fluid, static_cast<std::size_t>(row), gauge_pressure);
+}
+
+void FluidSweep::apply(FluidParticles& fluid, const SlicedNeighbours& list) const {
+  std::visit([&](const auto& parameters) { sweep(parameters, records_.data(), fluid, list); }, parameters_);
 }
 
 }  // namespace sphdrop

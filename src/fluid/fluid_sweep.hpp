@@ -14,17 +14,18 @@ namespace sphdrop {
 /// fetches it with one load.
 class FluidSweep {
  public:
-  explicit FluidSweep(const FluidPairParameters& parameters) : parameters_(parameters) {}
+  explicit FluidSweep(const AnyFluidPairParameters& parameters) : parameters_(parameters) {}
 
   /// Room for all rows of `fluid` and its padding; call after the number of rows changed.
   void resize(const FluidParticles& fluid);
-  /// Copies position, velocity, density, pressure, mass and volume of the rows into the records.
-  void pack(const FluidParticles& fluid, std::span<const RowRange> rows);
+  /// Copies position, velocity, density, mass and volume of the rows into the records, and pressure less
+  /// `gauge_pressure` (Pa), which is all that acts between particles.
+  void pack(const FluidParticles& fluid, std::span<const RowRange> rows, double gauge_pressure = 0);
   /// Sets density_rate, acceleration and dissipation_rate of the slices' rows.
   void apply(FluidParticles& fluid, const SlicedNeighbours& list) const;
 
  private:
-  FluidPairParameters parameters_;
+  AnyFluidPairParameters parameters_;
   Column<double> records_;  // [row][8]
 };
 

@@ -15,7 +15,7 @@ class FluidParticles : public ParticleSet {
   ScalarField density_rate{*this, "density_rate", "kg/m3/s", Role::state, "rate of density of the last step (9)"};
   ScalarField dissipated_energy{*this, "dissipated_energy", "J/m", Role::state, "heat made by viscosity so far"};
   ScalarField correction_energy{*this, "correction_energy", "J/m", Role::state,
-                                "compressive energy added by the density correction so far"};
+                                "compressive energy added by the density's correction or diffusion so far"};
   VectorField detection_position{*this, "detection_position", "m", Role::state,
                                  "position when the surface was last detected"};
   VectorField body_offset{*this, "body_offset", "m", Role::state,
@@ -25,6 +25,11 @@ class FluidParticles : public ParticleSet {
   ScalarField density{*this, "density", "kg/m3", Role::ghosted | Role::written, "density", 1.0};
   ScalarField pressure{*this, "pressure", "Pa", Role::written, "pressure (4)"};
   ScalarField dissipation_rate{*this, "dissipation_rate", "W/kg", Role::derived, "specific heating by viscosity"};
+  VectorField density_gradient{*this, "density_gradient", "kg/m4", Role::derived,
+                               "gradient of density, where density diffuses"};
+  ScalarField density_diffusion{*this, "density_diffusion", "kg/m3/s", Role::derived, "rate of density by diffusion"};
+  TensorField surface_orientation{*this, "surface_orientation", "1", Role::derived,
+                                  "mean n (x) n of the surface's normals within 2h, over its larger eigenvalue"};
   VectorField list_position{*this, "list_position", "m", Role::derived, "position when neighbours were last listed"};
 };
 

@@ -153,12 +153,12 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     }
   } catch (const SafetyError& error) {
     const std::string last = recorder.last_snapshot().string();
-    std::string text = fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last);
+    std::string message = fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last);
     record.finish(std::string("stopped: ") + error.what());
     try {
       record.write(communicator, directory);
     } catch (const RunRecordError& loss) {
-      text += fmt::format("\nwarning: {}", loss.what());
+      message += fmt::format("\nwarning: {}", loss.what());
     }
     throw SafetyError(text);
   }

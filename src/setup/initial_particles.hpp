@@ -13,6 +13,7 @@ namespace sphdrop {
 struct InitialFluid {
   std::vector<Vector> positions, velocities;
   std::vector<double> masses;
+  Vector centre;  ///< of the drop
 };
 
 /// Shapes: [particles]. A beam's particles stand in lattice order: column by column in x, from bottom to top in a

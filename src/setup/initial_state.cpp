@@ -93,11 +93,10 @@ InitialFluid place_drop(const Case& input, const DropParticles& drop, Vector cen
     throw SetupError("an oscillating drop needs an oscillation radius greater than 0");
   InitialFluid fluid;
   fluid.masses = drop.masses;
+  fluid.centre = centre;
   const Vector mass_centre = input.drop.is_rigid() ? mass_properties(drop.positions, drop.masses).centre : Vector{};
   for (const Vector& from_centre : drop.positions) {
-    Vector velocity{input.drop.velocity_x, input.drop.velocity_y};
-    if (input.drop.oscillation_velocity != 0.0)
-      velocity += oscillation_velocity(from_centre, input.drop.oscillation_velocity, input.drop.oscillation_radius);
+    Vector velocity = input.drop.relaxation_time > 0.0 ? Vector{} : drop_velocity(input, from_centre);
     if (input.drop.is_rigid()) velocity = rigid_velocity(velocity, input.drop.initial_spin, from_centre - mass_centre);
     fluid.positions.push_back(centre + from_centre);
     fluid.velocities.push_back(velocity);
@@ -146,6 +145,13 @@ void refuse_overlap(const Case& input, const InitialState& state) {
 }
 
 }  // namespace
+
+Vector drop_velocity(const Case& input, Vector from_centre) {
+  Vector velocity{input.drop.velocity_x, input.drop.velocity_y};
+  if (input.drop.oscillation_velocity != 0.0)
+    velocity += oscillation_velocity(from_centre, input.drop.oscillation_velocity, input.drop.oscillation_radius);
+  return velocity;
+}
 
 InitialState build_initial_state(const Case& input) {
   refuse_too_many_particles(input);

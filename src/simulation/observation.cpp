@@ -162,7 +162,7 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     std::vector<double> numbers;
     if (simulation.communicator().rank() == tension.owner()) {
       const SurfaceReport r = tension.report();
-      numbers = {r.length, r.mean_curvature, r.curvature_scatter, r.curve_count, r.net_force, r.base_width};
+      numbers = {r.length, r.mean_curvature, r.curvature_scatter, r.curve_count, r.net_force, r.base_width, r.area};
     }
     simulation.communicator().broadcast(numbers, tension.owner());
     o.curve_length = numbers[0];
@@ -171,11 +171,18 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     o.curve_count = numbers[3];
     o.tension_net_force = numbers[4];
     o.surface = simulation.input().surface_tension.coefficient * o.curve_length;
-    o.reconnection = simulation.input().surface_tension.coefficient * tension.reconnected_length();
+    o.reconnection = simulation.input().surface_tension.coefficient * tension.reconnected_length() +
+                     tension.reconnected_gauge_energy();
     if (tension.work_of_adhesion() > 0) {
       o.base_width = numbers[5];
       o.adhesion = -tension.work_of_adhesion() * o.base_width;
       o.reconnection -= tension.work_of_adhesion() * tension.reconnected_base();
+    }
+    const GaugePressureStep& gauge = simulation.gauge();
+    if (gauge.is_enabled()) {
+      o.gauge_pressure = gauge.pressure();
+      o.gauge = gauge.energy(numbers[6]);
+      o.gauge_adjustment = gauge.adjustment();
     }
   }
 }
@@ -222,7 +229,7 @@ Observation observe(const Simulation& simulation, double initial_total) {
 
   Observation o{};
   for (const ObservedQuantity& quantity : observed_quantities()) o.*quantity.value = nan;
-  o.surface = o.adhesion = o.contact = o.reconnection = o.largest_density_error = 0.0;
+  o.surface = o.adhesion = o.contact = o.reconnection = o.gauge = o.gauge_adjustment = o.largest_density_error = 0.0;
   o.time = simulation.time();
   o.step = static_cast<double>(simulation.step());
   o.time_step = simulation.time_step();
@@ -240,10 +247,10 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.dissipated_solid = sum[solid_heat];
   o.density_correction = sum[fluid_correction];
   o.artificial_stress_work = sum[solid_artificial];
-  o.total =
-      o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.adhesion + o.contact + o.gravity;
+  o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.adhesion + o.contact +
+            o.gravity + o.gauge;
   o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid + o.dissipated_contact - o.density_correction -
-                  o.artificial_stress_work - o.reconnection - initial_total;
+                  o.artificial_stress_work - o.reconnection - o.gauge_adjustment - initial_total;
   o.momentum_fluid_x = sum[fluid_momentum_x];
   o.momentum_fluid_y = sum[fluid_momentum_y];
   o.momentum_solid_x = sum[solid_momentum_x];

@@ -17,12 +17,15 @@ struct Observation {
   double drop_centre_x, drop_centre_y, drop_velocity_x, drop_velocity_y;
   double drop_angle, drop_spin;
   double drop_elongation, quarter_centre_x, quarter_centre_y;
-  double mean_pressure, curve_length, mean_curvature, curvature_scatter, curve_count, tension_net_force, base_width;
+  double mean_pressure, gauge_pressure, curve_length, mean_curvature, curvature_scatter, curve_count, tension_net_force;
+  double base_width;
   double contact_count, contact_force_x, contact_force_y, contact_impulse_x, contact_impulse_y;
   double contact_angular_impulse;
   double kinetic_fluid, kinetic_solid, elastic, compressive, surface, adhesion, contact, gravity;
+  double gauge;
   double dissipated_fluid, dissipated_solid, dissipated_contact, density_correction, artificial_stress_work,
       reconnection;
+  double gauge_adjustment;
   double total, unaccounted;
   double momentum_fluid_x, momentum_fluid_y, momentum_solid_x, momentum_solid_y;
   double angular_momentum_fluid, angular_momentum_solid;

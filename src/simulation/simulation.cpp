@@ -9,12 +9,9 @@
 #include <limits>
 #include <utility>
 
-#include "diagnostics/energy.hpp"
 #include "diagnostics/theory.hpp"
-#include "fluid/density_correction.hpp"
 #include "simulation/particle_transport.hpp"
 #include "solid/mass_proportional_damping.hpp"
-#include "sph/equation_of_state.hpp"
 
 namespace sphdrop {
 
@@ -23,6 +20,7 @@ namespace {
 // What one reduction a step brings to all ranks.
 enum Maximum : std::size_t {
   squared_speed,
+  squared_liquid_speed,
   squared_displacement,
   squared_solid_displacement,  // only of a solid that is dealt out by its undeformed body
   squared_detection_displacement,
@@ -30,6 +28,33 @@ enum Maximum : std::size_t {
   requested,
   maxima_count
 };
+
+SmoothingKernel smoothing_kernel(KernelShape shape, double smoothing_length) {
+  if (shape == KernelShape::wendland_c2) return WendlandC2(smoothing_length);
+  return CubicSpline(smoothing_length);
+}
+
+AnyFluidPairParameters fluid_pair_parameters(const Case::Fluid& fluid, const SmoothingKernel& kernel,
+                                             double smoothing_length) {
+  return std::visit(
+      [&](const auto& chosen) -> AnyFluidPairParameters {
+        using Kernel = std::decay_t<decltype(chosen)>;
+        if (fluid.viscosity_form == ViscosityForm::physical)
+          return FluidPairParameters<Kernel, PhysicalViscosity>{chosen, {fluid.viscosity, smoothing_length}};
+        return FluidPairParameters<Kernel, ArtificialViscosity>{
+            chosen,
+            {fluid.artificial_viscosity_alpha, fluid.artificial_viscosity_beta, fluid.sound_speed, smoothing_length}};
+      },
+      kernel);
+}
+
+template <class Set>
+double largest_squared_speed(const Set& set) {
+  double largest = 0;
+  set.for_each_owned(
+      [&](std::size_t row) { largest = std::max(largest, squared_length(set.staggered_velocity.at(row))); });
+  return largest;
+}
 
 std::vector<std::vector<std::int64_t>> global_polylines(const InitialSolid& solid, std::size_t first_id) {
   std::vector<std::vector<std::int64_t>> polylines;
@@ -44,12 +69,10 @@ std::vector<std::vector<std::int64_t>> global_polylines(const InitialSolid& soli
 
 DerivedParameters::DerivedParameters(const Case& c)
     : smoothing_length(c.resolution.smoothing_ratio * c.resolution.spacing),
-      kernel(smoothing_length),
+      kernel(smoothing_kernel(c.resolution.kernel, smoothing_length)),
       range{2.0 * smoothing_length, c.parallel.skin * c.resolution.spacing},
-      fluid_pair{kernel,
-                 {c.fluid.artificial_viscosity_alpha, c.fluid.artificial_viscosity_beta, c.fluid.sound_speed,
-                  smoothing_length}},
-      solid{{kernel, {}, 1.0 / kernel.value(c.resolution.spacing)},
+      fluid_pair(fluid_pair_parameters(c.fluid, kernel, smoothing_length)),
+      solid{{CubicSpline(smoothing_length), {}, 1.0 / CubicSpline(smoothing_length).value(c.resolution.spacing)},
             {c.solid.density, c.solid.youngs_modulus, c.solid.poisson_ratio},
             c.solid.deviatoric_trace == DeviatoricTrace::plane_strain ? 1.0 / 3.0 : 0.5,
             c.solid.artificial_stress_coefficient} {
@@ -92,22 +115,25 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
                     solid_step_->is_total_lagrangian(),
                     solid_step_->is_total_lagrangian() ? solid_step_->reach() : parameters_.range.list_reach()),
       fluid_sweep_(parameters_.fluid_pair),
+      gauge_(communicator, input, initial_fluid.masses),
+      shifting_(input, parameters_.kernel),
       surface_tension_(communicator, input, parameters_.kernel),
       contact_(communicator, input, global_polylines(initial_solid, initial_fluid.positions.size())),
       rigid_body_(input, initial_fluid),
-      maxima_(communicator) {
+      maxima_(communicator),
+      drop_centre_(initial_fluid.centre),
+      time_(0.0 - input.drop.relaxation_time) {
   fluid_ghosted_ = fluid_.columns_with(Role::ghosted);
+  if (has_density_diffusion()) {
+    fluid_ghosted_.push_back(&fluid_.density_gradient.x);
+    fluid_ghosted_.push_back(&fluid_.density_gradient.y);
+  }
   solid_ghosted_ = solid_step_->ghosted(solid_);
   correction_ghosted_ = {&fluid_.position.x, &fluid_.position.y, &fluid_.density.columns[0]};
   take_initial_state(initial_fluid, initial_solid);
   if (rigid_body_.is_enabled()) rigid_body_.take_places(fluid_);
   timer_.start();
-  double largest = 0;
-  fluid_.for_each_owned(
-      [&](std::size_t row) { largest = std::max(largest, squared_length(fluid_.staggered_velocity.at(row))); });
-  solid_.for_each_owned(
-      [&](std::size_t row) { largest = std::max(largest, squared_length(solid_.staggered_velocity.at(row))); });
-  post_maxima({largest, 0, 0, false}, {}, 0);
+  post_maxima({largest_squared_speed(fluid_)}, {largest_squared_speed(solid_)}, 0);
 }
 
 void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSolid& solid) {
@@ -178,6 +204,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
     surface_tension_.from_numbers(checkpoint.numbers_of("surface"));
     contact_.from_numbers(checkpoint.numbers_of("contact"));
     rigid_body_.from_numbers(checkpoint.numbers_of("rigid_body"));
+    gauge_.from_numbers(checkpoint.numbers_of("gauge_pressure"));
   } catch (const std::invalid_argument& error) {
     throw CheckpointError(fmt::format("{}: {}", checkpoint.path.string(), error.what()));
   }
@@ -185,17 +212,14 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   if (communicator_.sum(again.hash()) != checkpoint.header.state_hash)
     throw CheckpointError(fmt::format("{}: the state read is not the one that was written", checkpoint.path.string()));
 
-  double speed = 0, detection_displacement = 0;
+  double detection_displacement = 0;
   fluid_.for_each_owned([&](std::size_t row) {
-    speed = std::max(speed, squared_length(fluid_.staggered_velocity.at(row)));
     detection_displacement =
         std::max(detection_displacement, squared_length(fluid_.position.at(row) - fluid_.detection_position.at(row)));
   });
-  solid_.for_each_owned(
-      [&](std::size_t row) { speed = std::max(speed, squared_length(solid_.staggered_velocity.at(row))); });
   maxima_.finish();
   settled_ = {};
-  post_maxima({speed, 0, detection_displacement, false}, {}, 0);
+  post_maxima({largest_squared_speed(fluid_), 0, detection_displacement}, {largest_squared_speed(solid_)}, 0);
 }
 
 SavedSimulation Simulation::save() const {
@@ -205,12 +229,14 @@ SavedSimulation Simulation::save() const {
            {"surface", "-", "surface tension: whether the curves were detected, length that came with detections (m)",
             surface_tension_.to_numbers()},
            {"contact", "-", "record of the contact and the load of the last step", contact_.to_numbers()},
-           {"rigid_body", "-", "the drop as a rigid body", rigid_body_.to_numbers()}}};
+           {"rigid_body", "-", "the drop as a rigid body", rigid_body_.to_numbers()},
+           {"gauge_pressure", "Pa", "the drop's gauge pressure, and what it tends to", gauge_.to_numbers()}}};
 }
 
 void Simulation::settle() {
   if (!settled_.empty()) return;
   settled_ = maxima_.finish();
+  gauge_.finish();
   timer_.lap(Phase::communication);
   request_ = settled_[requested];
   check_safety(settled_[failure]);
@@ -222,7 +248,7 @@ void Simulation::evaluate() {
   detection_is_due_ =
       surface_tension_.is_enabled() &&
       (step_ == 0 || maxima[squared_detection_displacement] >= surface_tension_.largest_squared_displacement());
-  const double squared_speed_now = maxima[squared_speed];
+  const double squared_speed_now = maxima[squared_speed], squared_liquid_speed_now = maxima[squared_liquid_speed];
   redistribute_if_due(maxima[squared_displacement], maxima[squared_solid_displacement]);
 
   solid_step_->predict(solid_, steps_.previous);
@@ -235,7 +261,7 @@ void Simulation::evaluate() {
   start_exchange(distribution_.fluid_halo(), fluid_ghosted_);
   start_exchange(distribution_.solid_halo(), solid_ghosted_);
   if (detection_is_due_) {
-    surface_tension_.detect(fluid_, solid_, distribution_, contact_);
+    surface_tension_.detect(fluid_, solid_, distribution_, contact_, gauge_.pressure());
     ++detections_;
     timer_.lap(Phase::surface_tension);
   }
@@ -247,7 +273,8 @@ void Simulation::evaluate() {
   sweep_what_needs_no_ghosts();
   contact_.receive();
   timer_.lap(Phase::contact);
-  if (surface_tension_.is_enabled()) surface_tension_.work(contact_);
+  if (surface_tension_.is_enabled()) surface_tension_.work(contact_, gauge_.pressure());
+  if (gauge_.is_enabled()) gauge_.start(fluid_, surface_tension_.enclosed_area());
   timer_.lap(Phase::surface_tension);
   contact_.work(time_, steps_.next, steps_.kick(), surface_tension_.adhesion());
   timer_.lap(Phase::contact);
@@ -259,19 +286,30 @@ void Simulation::evaluate() {
   if (surface_tension_.is_enabled()) surface_tension_.finish(fluid_);
   contact_.finish(fluid_, solid_);
   timer_.lap(Phase::communication);
-  add_gravity();
+  if (is_relaxing())
+    damp_resting_drop();
+  else
+    add_gravity();
+  if (has_density_diffusion()) account_for_density_diffusion();
+  if (shifting_.is_due(step_)) shifting_.find(fluid_, distribution_, std::sqrt(squared_liquid_speed_now), steps_.next);
   if (rigid_body_.is_enabled()) add_forces_on_rigid_body();
   if (parameters_.damping_rate > 0) add_mass_proportional_damping(solid_, parameters_.damping_rate);
 }
 
 void Simulation::move(double request) {
   const double limit = case_.safety.speed_limit;
-  const MotionMaxima fluid =
+  const bool was_relaxing = is_relaxing();
+  shifting_.apply(fluid_);
+  MotionMaxima fluid =
       rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit) : kick_and_drift(fluid_, steps_, limit);
   const MotionMaxima solid = solid_step_->move(solid_, steps_, limit);
   time_ += steps_.next;
   ++step_;
   steps_.previous = steps_.next;
+  if (was_relaxing && !is_relaxing()) {
+    start_drop();
+    fluid = motion_maxima(fluid_, limit);
+  }
   post_maxima(fluid, solid, request);
   timer_.lap(Phase::update);
 }
@@ -279,6 +317,7 @@ void Simulation::move(double request) {
 void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& solid, double request) {
   std::array<double, maxima_count> mine{};
   mine[squared_speed] = std::max(fluid.squared_speed, solid.squared_speed);
+  mine[squared_liquid_speed] = fluid.squared_speed;
   if (solid_step_->is_total_lagrangian()) {
     mine[squared_displacement] = fluid.squared_displacement;
     mine[squared_solid_displacement] = solid.squared_displacement;
@@ -319,60 +358,23 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
   timer_.lap(Phase::redistribution);
 }
 
-void Simulation::predict_liquid() {
-  predict(fluid_, steps_.previous);
-  timer_.lap(Phase::update);
-  const std::int64_t interval = case_.fluid.density_correction_interval;
-  if (interval > 0 && step_ > 0 && step_ % interval == 0) correct_density();
-
-  for (const RowRange& range : fluid_.owned)
-    for (std::int32_t k = range.begin; k < range.end; ++k) {
-      const auto row = static_cast<std::size_t>(k);
-      fluid_.pressure[row] =
-          equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
-    }
-  fluid_sweep_.pack(fluid_, fluid_.owned);
-}
-
-void Simulation::correct_density() {
-  start_exchange(distribution_.fluid_halo(), correction_ghosted_);
-  finish_exchange(distribution_.fluid_halo(), correction_ghosted_);
-  timer_.lap(Phase::communication);
-  for (const SlicedNeighbours* list : {&distribution_.inner_fluid(), &distribution_.border_fluid()})
-    moving_least_squares_densities(fluid_, *list, parameters_.kernel, case_.resolution.spacing, corrected_density_);
-  // The staggered density is shifted by the same increment, so that the filter is not undone by the next step.
-  const double reference = case_.fluid.density, sound_speed = case_.fluid.sound_speed;
-  fluid_.for_each_owned([&](std::size_t row) {
-    const double before = fluid_.density[row], after = corrected_density_[row];
-    fluid_.staggered_density[row] += after - before;
-    fluid_.density[row] = after;
-    fluid_.correction_energy[row] += fluid_.mass[row] * (compressive_energy_per_mass(after, reference, sound_speed) -
-                                                         compressive_energy_per_mass(before, reference, sound_speed));
-  });
-  timer_.lap(Phase::fluid_sweep);
-}
-
 double Simulation::next_step_length(double squared_speed_now) const {
-  if (case_.time.step > 0) return case_.time.step;
-  return stable_time_step(parameters_.time_step, std::sqrt(squared_speed_now));
+  const double step =
+      case_.time.step > 0 ? case_.time.step : stable_time_step(parameters_.time_step, std::sqrt(squared_speed_now));
+  return is_relaxing() ? std::min(step, -time_) : step;  // the drop starts at t = 0 sharp
 }
 
 void Simulation::sweep_what_needs_no_ghosts() {
-  fluid_sweep_.apply(fluid_, distribution_.inner_fluid());
+  sweep_liquid(distribution_.inner_fluid());
   timer_.lap(Phase::fluid_sweep);
   solid_step_->sweep_inner(solid_, distribution_);
   timer_.lap(Phase::solid_sweep);
 }
 
 void Simulation::sweep_the_rest() {
-  for (const RowRange& range : fluid_.ghosts)
-    for (std::int32_t k = range.begin; k < range.end; ++k) {
-      const auto row = static_cast<std::size_t>(k);
-      fluid_.pressure[row] =
-          equation_of_state_pressure(fluid_.density[row], case_.fluid.sound_speed, case_.fluid.density);
-    }
-  fluid_sweep_.pack(fluid_, fluid_.ghosts);
-  fluid_sweep_.apply(fluid_, distribution_.border_fluid());
+  set_liquid_pressure(fluid_.ghosts);
+  fluid_sweep_.pack(fluid_, fluid_.ghosts, gauge_.pressure());
+  sweep_liquid(distribution_.border_fluid());
   timer_.lap(Phase::fluid_sweep);
   solid_step_->sweep_rest(solid_, distribution_);
   timer_.lap(Phase::solid_sweep);

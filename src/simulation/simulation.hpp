@@ -15,9 +15,11 @@
 #include "setup/initial_particles.hpp"
 #include "simulation/contact_step.hpp"
 #include "simulation/distribution.hpp"
+#include "simulation/gauge_pressure_step.hpp"
 #include "simulation/phase_timer.hpp"
 #include "simulation/rigid_body_step.hpp"
 #include "simulation/saved_simulation.hpp"
+#include "simulation/shifting_step.hpp"
 #include "simulation/solid_step.hpp"
 #include "simulation/surface_tension_step.hpp"
 #include "solid/hypoelastic/hypoelastic_sweep.hpp"
@@ -37,9 +39,9 @@ struct DerivedParameters {
   explicit DerivedParameters(const Case& input);
 
   double smoothing_length;  ///< h, m
-  CubicSpline kernel;
+  SmoothingKernel kernel;   ///< of the liquid
   InteractionRange range;
-  FluidPairParameters fluid_pair;
+  AnyFluidPairParameters fluid_pair;
   HypoelasticParameters solid;
   TimeStepLimits time_step;
   double damping_rate;  ///< of the solid, in proportion to mass, 1/s
@@ -88,6 +90,7 @@ class Simulation {
   const ContactStep& contact() const { return contact_; }
   const RigidBodyStep& rigid_body() const { return rigid_body_; }
   const SolidStep& solid_step() const { return *solid_step_; }
+  const GaugePressureStep& gauge() const { return gauge_; }
   const Distribution& distribution() const { return distribution_; }
   /// Global ids of the particles whose mean displacement is the deflection.
   const std::vector<std::int64_t>& deflection_probe() const { return deflection_probe_; }
@@ -109,7 +112,17 @@ class Simulation {
   void redistribute_if_due(double squared_displacement, double squared_solid_displacement);
   /// Velocity, density and pressure at the present instant, ready for the sweep.
   void predict_liquid();
+  void set_liquid_pressure(std::span<const RowRange> rows);
+  void exchange_densities();
   void correct_density();
+  bool has_density_diffusion() const;
+  void find_density_gradients();
+  void sweep_liquid(const SlicedNeighbours& list);
+  void account_for_density_diffusion();
+  /// Before t = 0 the drop comes to rest; what it starts with is given to it then.
+  bool is_relaxing() const { return time_ < 0; }
+  void damp_resting_drop();
+  void start_drop();
   double next_step_length(double squared_speed) const;
   void sweep_what_needs_no_ghosts();
   void sweep_the_rest();
@@ -128,6 +141,8 @@ class Simulation {
   std::unique_ptr<SolidStep> solid_step_;
   Distribution distribution_;
   FluidSweep fluid_sweep_;
+  GaugePressureStep gauge_;
+  ShiftingStep shifting_;
   SurfaceTensionStep surface_tension_;
   ContactStep contact_;
   RigidBodyStep rigid_body_;
@@ -135,7 +150,8 @@ class Simulation {
   std::vector<Column<double>*> fluid_ghosted_, solid_ghosted_, correction_ghosted_;
   std::vector<double> corrected_density_;
 
-  double time_ = 0;
+  Vector drop_centre_;  // at the very beginning, m
+  double time_;
   std::int64_t step_ = 0;
   StepLengths steps_;
   std::span<const double> settled_;  // what move() left under way, once it is known; empty before

@@ -6,13 +6,14 @@
 #include <cmath>
 
 #include "diagnostics/number_reader.hpp"
+#include "fluid/particle_shifting.hpp"
 #include "sph/cell_grid.hpp"
-#include "surface_tension/surface_force.hpp"
 #include "surface_tension/surface_points.hpp"
 
 namespace sphdrop {
 
-SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const Case& input, const CubicSpline& kernel)
+SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const Case& input,
+                                       const SmoothingKernel& kernel)
     : communicator_(communicator),
       kernel_(kernel),
       form_(input.surface_tension.coefficient > 0 && !input.drop.is_rigid() ? input.surface_tension.form
@@ -22,6 +23,7 @@ SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const C
       support_(2.0 * input.resolution.smoothing_ratio * input.resolution.spacing),
       detection_displacement_(input.surface_tension.detection_displacement * input.resolution.spacing),
       polynomial_points_(static_cast<int>(input.surface_tension.polynomial_points)),
+      orients_particles_(input.fluid.shifting == Switch::on),
       finder_(support_),
       is_wetting_(is_enabled() && input.is_wetting()),
       adhesion_parameters_(adhesion_parameters(
@@ -33,7 +35,7 @@ SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const C
                       input.parallel.skin * spacing_) {}
 
 void SurfaceTensionStep::detect(FluidParticles& fluid, const SolidParticles& solid, Distribution& distribution,
-                                ContactStep& contact) {
+                                ContactStep& contact, double gauge_pressure) {
   Extent old;
   if (has_curves_) {
     gather_points(fluid);
@@ -47,6 +49,7 @@ void SurfaceTensionStep::detect(FluidParticles& fluid, const SolidParticles& sol
     const Extent present = extent_on_all_ranks(contact);
     reconnected_length_ += present.length - old.length;
     reconnected_base_ += present.base - old.base;
+    reconnected_gauge_energy_ -= gauge_pressure * (present.area - old.area);
   }
   has_curves_ = true;
 }
@@ -58,7 +61,7 @@ void SurfaceTensionStep::recover(FluidParticles& fluid, Distribution& distributi
 }
 
 std::vector<double> SurfaceTensionStep::to_numbers() const {
-  return {has_curves_ ? 1.0 : 0.0, reconnected_length_, reconnected_base_};
+  return {has_curves_ ? 1.0 : 0.0, reconnected_length_, reconnected_base_, reconnected_gauge_energy_};
 }
 
 void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
@@ -66,6 +69,7 @@ void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
   has_curves_ = reader.flag();
   reconnected_length_ = reader.number();
   reconnected_base_ = reader.number();
+  reconnected_gauge_energy_ = reader.number();
   reader.expect_end();
 }
 
@@ -79,11 +83,11 @@ void SurfaceTensionStep::gather_points(const FluidParticles& fluid) {
 SurfaceTensionStep::Extent SurfaceTensionStep::extent_on_all_ranks(const ContactStep& contact) {
   std::vector<double> numbers;
   if (owner() == communicator_.rank()) {
-    numbers = {total_length(curves_, points_), 0.0};
+    numbers = {total_length(curves_, points_), 0.0, total_area(curves_, points_)};
     if (is_wetting_) numbers[1] = adhesion_.base_width(curves_, points_, contact.boundary(), adhesion_parameters_);
   }
   communicator_.broadcast(numbers, owner());
-  return {numbers[0], numbers[1]};
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 void SurfaceTensionStep::update_points() {
@@ -153,9 +157,51 @@ void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribu
     arcs_.push_back(located.arc);
     arc_centres_.push_back(located.centre);
   }
+  find_arc_normals();
 }
 
-void SurfaceTensionStep::regather(const FluidParticles& fluid, const ContactStep& contact) {
+// Of the line through an arc's neighbours on the curve, or the middle of the arc where there is no such line.
+void SurfaceTensionStep::find_arc_normals() {
+  const auto centre_of = [&](std::int64_t particle) -> const Vector* {
+    const auto found = std::lower_bound(arcs_.begin(), arcs_.end(), particle,
+                                        [](const Arc& arc, std::int64_t id) { return arc.particle < id; });
+    if (found == arcs_.end() || found->particle != particle) return nullptr;
+    return &arc_centres_[static_cast<std::size_t>(found - arcs_.begin())];
+  };
+  arc_normals_.clear();
+  for (const Arc& arc : arcs_) {
+    const Vector *next = centre_of(arc.next), *previous = centre_of(arc.previous);
+    Vector normal = next != nullptr && previous != nullptr ? right_normal(*next - *previous) : Vector{};
+    if (squared_length(normal) == 0.0) normal = arc.start + arc.end;
+    const double squared = squared_length(normal);
+    arc_normals_.push_back(squared > 0.0 ? normal / std::sqrt(squared) : Vector{});
+  }
+}
+
+void SurfaceTensionStep::orient_along_surface(FluidParticles& fluid) const {
+  std::vector<double> arc_x(arc_centres_.size()), arc_y(arc_centres_.size());
+  for (std::size_t k = 0; k < arc_centres_.size(); ++k) {
+    arc_x[k] = arc_centres_[k].x;
+    arc_y[k] = arc_centres_[k].y;
+  }
+  const CellGrid grid(arc_x, arc_y, support_);
+  std::vector<std::size_t> near;
+  fluid.for_each_owned([&](std::size_t row) {
+    const Vector here = fluid.detection_position.at(row);
+    near.clear();
+    grid.for_each_near(here, [&](std::int32_t k) { near.push_back(static_cast<std::size_t>(k)); });
+    std::sort(near.begin(), near.end());  // arcs are in the order of ids
+    OrientationSums sums;
+    for (const std::size_t k : near) sums.add(arc_normals_[k], kernel_value(kernel_, length(arc_centres_[k] - here)));
+    const OrientationSums mean = normalised(sums);
+    fluid.surface_orientation.xx[row] = mean.xx;
+    fluid.surface_orientation.xy[row] = mean.xy;
+    fluid.surface_orientation.yy[row] = mean.yy;
+  });
+}
+
+void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& contact) {
+  if (orients_particles_) orient_along_surface(fluid);
   // A surface point is d/2 from its particle and acts as far as 2h. Until the next detection both ends move by its
   // displacement and a step, the point a little more, as it also turns about its particle.
   const double action = support_ + 6.0 * detection_displacement_ + 0.02 * spacing_;
@@ -223,7 +269,7 @@ void SurfaceTensionStep::start(const FluidParticles& fluid) {
   gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
 }
 
-void SurfaceTensionStep::work(ContactStep& contact) {
+void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
   gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
   if (owner() == communicator_.rank()) {
     update_points();
@@ -231,6 +277,7 @@ void SurfaceTensionStep::work(ContactStep& contact) {
       conservative_forces(curves_, points_, coefficient_, forces_);
     else
       curvature_forces(curves_, points_, coefficient_, polynomial_points_, forces_);
+    if (gauge_pressure != 0.0) add_pressure_forces(curves_, points_, gauge_pressure, forces_);
     std::fill(acceleration_x_.begin(), acceleration_x_.end(), 0.0);
     std::fill(acceleration_y_.begin(), acceleration_y_.end(), 0.0);
     if (is_wetting_) {
@@ -256,6 +303,7 @@ void SurfaceTensionStep::finish(FluidParticles& fluid) {
 SurfaceReport SurfaceTensionStep::report() const {
   SurfaceReport report;
   report.length = total_length(curves_, points_);
+  report.area = enclosed_area();
   report.node_count = static_cast<double>(curves_.nodes.size());
   report.unmatched_arcs = static_cast<double>(curves_.unmatched_arcs);
   report.lost_points = static_cast<double>(lost_points_);

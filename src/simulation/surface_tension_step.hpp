@@ -13,6 +13,7 @@
 #include "surface_tension/boundary_detection.hpp"
 #include "surface_tension/force_sharing.hpp"
 #include "surface_tension/surface_curve.hpp"
+#include "surface_tension/surface_force.hpp"
 #include "wetting/adhesion.hpp"
 
 namespace sphdrop {
@@ -25,6 +26,7 @@ struct SurfaceReport {
   double node_count = 0;
   double curve_count = 0;  ///< of three nodes or more
   double net_force = 0;    ///< |sum of the tension's forces| over the sum of their magnitudes
+  double area = 0;         ///< within the curves, m2
   double lost_points = 0;  ///< surface points without a particle to act on
   double unmatched_arcs = 0;
   double base_width = 0;  ///< B, m; 0 unless the solid attracts the liquid
@@ -37,25 +39,28 @@ struct SurfaceReport {
 /// hand and takes its part of the forces. Otherwise contact is never asked for anything.
 class SurfaceTensionStep {
  public:
-  SurfaceTensionStep(const Communicator& communicator, const Case& input, const CubicSpline& kernel);
+  SurfaceTensionStep(const Communicator& communicator, const Case& input, const SmoothingKernel& kernel);
 
   bool is_enabled() const { return form_ != SurfaceTensionForm::none; }
   /// The squared displacement from detection_position at which detect() is due, m2.
   double largest_squared_displacement() const { return detection_displacement_ * detection_displacement_; }
 
   /// Collective. Takes the present positions as those of detection, and finds the surface's arcs in them.
-  void detect(FluidParticles& fluid, const SolidParticles& solid, Distribution& distribution, ContactStep& contact);
+  /// `gauge_pressure` (Pa) is for the ledger.
+  void detect(FluidParticles& fluid, const SolidParticles& solid, Distribution& distribution, ContactStep& contact,
+              double gauge_pressure);
   /// Collective. Brings the band along the surface to its owner; after detect() and after every redistribution.
-  void regather(const FluidParticles& fluid, const ContactStep& contact);
+  void regather(FluidParticles& fluid, const ContactStep& contact);
 
   /// Collective. After the first redistribution of a restored run: the curves of the last detection, if there was one.
   void recover(FluidParticles& fluid, Distribution& distribution, const ContactStep& contact);
 
   /// Sends the band's positions to the owner.
   void start(const FluidParticles& fluid);
-  /// At the owner: surface points, forces and their shares; starts sending them back. If the solid attracts the liquid,
-  /// contact must have received, and gets forces on the boundary.
-  void work(ContactStep& contact);
+  /// At the owner: surface points, forces and their shares; starts sending them back. The drop's `gauge_pressure` (Pa)
+  /// pushes its surface outwards. If the solid attracts the liquid, contact must have received, and gets forces on the
+  /// boundary.
+  void work(ContactStep& contact, double gauge_pressure);
   /// Adds the accelerations to the band's rows.
   void finish(FluidParticles& fluid);
 
@@ -65,10 +70,16 @@ class SurfaceTensionStep {
   double reconnected_length() const { return reconnected_length_; }
   /// Likewise of the base on a solid that attracts the liquid, m.
   double reconnected_base() const { return reconnected_base_; }
+  /// Likewise -gauge pressure times the area within the curves, J/m.
+  double reconnected_gauge_energy() const { return reconnected_gauge_energy_; }
+  /// Counts them anew.
+  void start_ledger() { reconnected_length_ = reconnected_base_ = reconnected_gauge_energy_ = 0; }
   /// W, N/m: energy per width of the base; 0 where the solid does not attract the liquid.
   double work_of_adhesion() const { return adhesion_parameters_.work; }
   /// At the owner: what adhesion does to the solid.
   const AdhesionSummary& adhesion() const { return adhesion_summary_; }
+  /// Within the curves, at the owner, of the instant last worked on, m2; 0 at the others.
+  double enclosed_area() const { return total_area(curves_, points_); }
   /// At the owner, of the instant last worked on.
   SurfaceReport report() const;
 
@@ -80,25 +91,28 @@ class SurfaceTensionStep {
  private:
   void find_arcs(FluidParticles& fluid, Distribution& distribution);
   void update_points();
+  void find_arc_normals();
+  void orient_along_surface(FluidParticles& fluid) const;
   void gather_points(const FluidParticles& fluid);
   struct Extent {
-    double length = 0, base = 0;  // m
+    double length = 0, base = 0, area = 0;  // m, m, m2
   };
   Extent extent_on_all_ranks(const ContactStep& contact);
 
   const Communicator& communicator_;
-  CubicSpline kernel_;
+  SmoothingKernel kernel_;
   SurfaceTensionForm form_;
   double coefficient_, spacing_, support_, detection_displacement_;
   int polynomial_points_;
+  bool orients_particles_;
   ArcFinder finder_;
 
   // On every rank: the arcs of the last detection and where their particles were.
   std::vector<Arc> arcs_;
-  std::vector<Vector> arc_centres_;
+  std::vector<Vector> arc_centres_, arc_normals_;
 
   bool has_curves_ = false;
-  double reconnected_length_ = 0, reconnected_base_ = 0;
+  double reconnected_length_ = 0, reconnected_base_ = 0, reconnected_gauge_energy_ = 0;
 
   // This rank's part of the band, and what comes back for it.
   InterfaceGather gather_;

@@ -11,6 +11,12 @@ struct ArtificialViscosity {
   double sound_speed = 0;       ///< c, m/s
   double smoothing_length = 0;  ///< h, m
 
+  /// What the formula takes of the two densities: their sum.
+  template <class T>
+  [[gnu::always_inline]] static T combined(const T& density_i, const T& density_j) {
+    return density_i + density_j;
+  }
+
   /// (r^2 + 0.01 h^2)(rho_i + rho_j), what Pi_ij is divided by: the caller inverts it together with other numbers.
   template <class T>
   [[gnu::always_inline]] T denominator(const T& squared_distance, const T& density_sum) const {

@@ -77,13 +77,13 @@ void ForceSharing::rebuild(std::span<const Vector> centres, std::span<const doub
 
 std::size_t ForceSharing::share(std::span<const Vector> points, std::span<const Vector> forces,
                                 std::span<const double> x, std::span<const double> y, std::span<const double> masses,
-                                const CubicSpline& kernel, std::span<double> acceleration_x,
+                                const SmoothingKernel& kernel, std::span<double> acceleration_x,
                                 std::span<double> acceleration_y) {
   assert(points.size() == candidate_count_.size() && forces.size() == points.size());
   assert(x.size() == y.size() && masses.size() == x.size());
   assert(acceleration_x.size() == x.size() && acceleration_y.size() == x.size());
   copy_candidates(x, y, masses);
-  evaluate_kernel(points, forces, kernel);
+  std::visit([&](const auto& chosen) { evaluate_kernel(points, forces, chosen); }, kernel);
   sum_over_points();
   for (std::size_t c = 0; c < particles_.size(); ++c) {
     const auto i = static_cast<std::size_t>(particles_[c]);
@@ -106,8 +106,9 @@ void ForceSharing::copy_candidates(std::span<const double> x, std::span<const do
   candidate_y_.back() = far_away;
 }
 
+template <class Kernel>
 void ForceSharing::evaluate_kernel(std::span<const Vector> points, std::span<const Vector> forces,
-                                   const CubicSpline& kernel) {
+                                   const Kernel& kernel) {
   using std::sqrt;
   points_without_particles_ = 0;
   const double* const candidate_x = candidate_x_.data();

@@ -28,7 +28,7 @@ class ForceSharing {
   /// particle, as in rebuild; masses in kg/m. Returns the number of points with no particle within 2h, whose force is
   /// lost.
   std::size_t share(std::span<const Vector> points, std::span<const Vector> forces, std::span<const double> x,
-                    std::span<const double> y, std::span<const double> masses, const CubicSpline& kernel,
+                    std::span<const double> y, std::span<const double> masses, const SmoothingKernel& kernel,
                     std::span<double> acceleration_x, std::span<double> acceleration_y);
 
   /// All particles that are a candidate of some point, ascending.
@@ -36,7 +36,8 @@ class ForceSharing {
 
  private:
   void copy_candidates(std::span<const double> x, std::span<const double> y, std::span<const double> masses);
-  void evaluate_kernel(std::span<const Vector> points, std::span<const Vector> forces, const CubicSpline& kernel);
+  template <class Kernel>
+  void evaluate_kernel(std::span<const Vector> points, std::span<const Vector> forces, const Kernel& kernel);
   void sum_over_points();
 
   // Nodes go in slices, one node a lane of a vector; the candidates at the same place in their lists lie side by side.

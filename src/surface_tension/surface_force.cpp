@@ -113,6 +113,17 @@ void curvature_forces(const SurfaceCurves& curves, std::span<const Vector> point
   }
 }
 
+void add_pressure_forces(const SurfaceCurves& curves, std::span<const Vector> points, double pressure,
+                         std::span<Vector> forces) {
+  assert(points.size() == curves.nodes.size() && forces.size() == points.size());
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const SurfaceCurves::Range curve = curves.curve(c);
+    if (!curve.carries_force()) continue;
+    for (std::size_t k = curve.first; k < curve.last; ++k)
+      forces[k] += 0.5 * pressure * right_normal(points[curve.next(k)] - points[curve.previous(k)]);
+  }
+}
+
 void curvatures(const SurfaceCurves& curves, std::span<const Vector> points, int polynomial_points,
                 std::span<double> curvature) {
   check_polynomial_points(polynomial_points);
@@ -131,6 +142,20 @@ double total_length(const SurfaceCurves& curves, std::span<const Vector> points)
     const SurfaceCurves::Range curve = curves.curve(c);
     if (!curve.carries_force()) continue;
     for (std::size_t k = curve.first; k < curve.last; ++k) sum += length(points[curve.next(k)] - points[k]);
+  }
+  return sum;
+}
+
+double total_area(const SurfaceCurves& curves, std::span<const Vector> points) {
+  assert(points.size() == curves.nodes.size());
+  double sum = 0.0;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const SurfaceCurves::Range curve = curves.curve(c);
+    if (!curve.carries_force()) continue;
+    // From a point of the curve, so that its place in the plane costs no digits.
+    const Vector origin = points[curve.first];
+    for (std::size_t k = curve.first; k < curve.last; ++k)
+      sum += 0.5 * cross(points[k] - origin, points[curve.next(k)] - origin);
   }
   return sum;
 }

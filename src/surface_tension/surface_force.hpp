@@ -23,6 +23,11 @@ void conservative_forces(const SurfaceCurves& curves, std::span<const Vector> po
 void curvature_forces(const SurfaceCurves& curves, std::span<const Vector> points, double sigma, int polynomial_points,
                       std::span<Vector> forces);
 
+/// Adds to F_k the force p/2 (D_y, -D_x), D = s_{k+1} - s_{k-1}, of a pressure p (Pa) inside: p times the gradient of
+/// the area that the curve encloses. Sums to zero round every curve, and so does its moment.
+void add_pressure_forces(const SurfaceCurves& curves, std::span<const Vector> points, double pressure,
+                         std::span<Vector> forces);
+
 /// The curvature (29) that curvature_forces uses, 1/m: positive where the liquid is convex, 1/R on a drop's outline and
 /// -1/R on a bubble's.
 void curvatures(const SurfaceCurves& curves, std::span<const Vector> points, int polynomial_points,
@@ -30,5 +35,8 @@ void curvatures(const SurfaceCurves& curves, std::span<const Vector> points, int
 
 /// Length of all curves, m: times sigma, the surface energy per metre of depth.
 double total_length(const SurfaceCurves& curves, std::span<const Vector> points);
+
+/// Area of the liquid within all curves, holes taken off, m2.
+double total_area(const SurfaceCurves& curves, std::span<const Vector> points);
 
 }  // namespace sphdrop

@@ -181,7 +181,7 @@ struct Drop {
   static constexpr double sound_speed = 50;
   FluidParticles fluid;
   SlicedNeighbours list;
-  FluidSweep sweep{{kernel, {0.1, 0.0, sound_speed, smoothing_length}}};
+  FluidSweep sweep{FluidPairParameters<>{kernel, {0.1, 0.0, sound_speed, smoothing_length}}};
   std::vector<double> corrected;
 };
 

@@ -29,7 +29,7 @@ void sweep_fluid(FluidParticles& fluid, const std::vector<FluidSample>& sample) 
   for (std::size_t row = 0; row < fluid.size(); ++row)
     fluid.pressure[row] = equation_of_state_pressure(fluid.density[row], fluid_sound_speed, test::reference_density);
   const auto list = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, fluid.owned[0], reach);
-  FluidSweep sweep({kernel, {0.1, 0.5, fluid_sound_speed, smoothing_length}});
+  FluidSweep sweep(FluidPairParameters<>{kernel, {0.1, 0.5, fluid_sound_speed, smoothing_length}});
   sweep.resize(fluid);
   sweep.pack(fluid, fluid.owned);
   sweep.apply(fluid, list);

@@ -20,8 +20,8 @@ using test::spacing;
 
 constexpr double sound_speed = 50;
 constexpr reference::Viscosity viscosity{0.1, 0.6, sound_speed};
-constexpr FluidPairParameters parameters{CubicSpline(smoothing_length),
-                                         {viscosity.alpha, viscosity.beta, viscosity.sound_speed, smoothing_length}};
+constexpr FluidPairParameters<> parameters{CubicSpline(smoothing_length),
+                                           {viscosity.alpha, viscosity.beta, viscosity.sound_speed, smoothing_length}};
 constexpr double support = 2 * smoothing_length;
 
 struct Rates {

@@ -11,10 +11,10 @@ namespace sphdrop {
 namespace {
 
 constexpr double h = 3e-5;
-constexpr FluidPairParameters parameters{CubicSpline(h),
-                                         {.alpha = 0.1, .beta = 0.5, .sound_speed = 50, .smoothing_length = h}};
+constexpr FluidPairParameters<> parameters{CubicSpline(h),
+                                           {.alpha = 0.1, .beta = 0.5, .sound_speed = 50, .smoothing_length = h}};
 
-FluidRates<double> rates_of(const FluidPairParameters& p, const FluidState<double>& i, const FluidState<double>& j) {
+FluidRates<double> rates_of(const FluidPairParameters<>& p, const FluidState<double>& i, const FluidState<double>& j) {
   FluidRates<double> rates;
   add_fluid_pair(p, i, 1.0 / i.density, j, rates);
   return rates;
@@ -30,8 +30,8 @@ FluidState<double> random_state(test::RandomNumbers& random) {
 
 // h = 1, x_ij = 1.5 (0.6, 0.8): dW/dr = -a/8 with a = 15/(7 pi). v_ij = (-2, 1), so v_ij.x_ij = -0.6.
 TEST(FluidPair, HasTheValuesWorkedOutByHand) {
-  const FluidPairParameters simple{CubicSpline(1.0),
-                                   {.alpha = 0.5, .beta = 2, .sound_speed = 3, .smoothing_length = 1}};
+  const FluidPairParameters<> simple{CubicSpline(1.0),
+                                     {.alpha = 0.5, .beta = 2, .sound_speed = 3, .smoothing_length = 1}};
   const FluidState<double> i{0.9, 1.2, -1, 0, 2, 5, 0.7, 0.35};
   const FluidState<double> j{0, 0, 1, -1, 4, 7, 0.3, 0.075};
   const double slope = -15 / (7 * std::numbers::pi) / 8;

@@ -1,0 +1,55 @@
+#pragma once
+// The gauge pressure of a distributed drop.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "config/case.hpp"
+#include "decomposition/exact_sum.hpp"
+#include "fluid/gauge_pressure.hpp"
+#include "particles/fluid_particles.hpp"
+
+namespace sphdrop {
+
+/// In a step: relax(), start(), finish(). What a step finds of the pressures is used by the next one, so that the sums
+/// over all ranks are under way while the forces are computed. There is one drop, and all its fragments share its
+/// pressure; each further drop would have a gauge of its own.
+class GaugePressureStep {
+ public:
+  /// `masses`: of the whole drop's particles, kg/m.
+  GaugePressureStep(const Communicator& communicator, const Case& input, std::span<const double> masses);
+
+  bool is_enabled() const { return is_enabled_; }
+  /// p_ref at the present instant, Pa; 0 where it is not enabled. The same on every rank.
+  double pressure() const { return gauge_.pressure; }
+  /// The energy of its push on the surface, -p_ref (A - V0), J/m: A the `area` within the curves (m2), V0 the drop's at
+  /// rest density.
+  double energy(double area) const { return -gauge_.pressure * (area - rest_area_); }
+  /// What changes of p_ref have added to that energy so far, J/m.
+  double adjustment() const { return adjustment_; }
+  /// Counts adjustment() anew.
+  void start_ledger() { adjustment_ = 0; }
+
+  /// Lets p_ref follow over the last `step` (s), and takes the change off the owned rows' staggered densities.
+  void relax(FluidParticles& fluid, double step);
+  /// Collective. Sums up the owned rows' pressures, those counted from zero. `area`: that within the curves at the
+  /// surface's owner, 0 at the others, m2.
+  void start(const FluidParticles& fluid, double area);
+  /// Waits for what start() began, if it did.
+  void finish();
+
+  std::vector<double> to_numbers() const { return {gauge_.pressure, gauge_.target, area_, adjustment_}; }
+  /// Throws std::invalid_argument where the numbers are not of to_numbers().
+  void from_numbers(std::span<const double> numbers);
+
+ private:
+  bool is_enabled_;
+  double relaxation_time_, inverse_squared_sound_speed_;
+  double rest_area_ = 0, area_ = 0, adjustment_ = 0;
+  GaugePressure gauge_;
+  PendingExactSums pending_;
+  std::array<ExactSum, 4> sums_;  // p, p^2, 1, area
+};
+
+}  // namespace sphdrop
