@@ -185,20 +185,13 @@ void Simulation::restore(const Checkpoint& checkpoint) {
 }
 
 SavedSimulation Simulation::save() const {
-  return {
-      StoredParticles("fluid", fluid_, fluid_total_),
-      StoredParticles("solid", solid_, solid_total_),
-      {clock_numbers({time_, step_, steps_.previous}),
-       {"surface", "-", "surface tension: whether the curves were detected, length that came with detections (m)",
-        surface_tension_.to_numbers()},
-       {"contact", "-",
-        "the last step's force x, y (N/m) and moment (N), integrals over time; then the record of the contact: "
-        "settings, times (s), impulse (N s/m), gaps, samples",
-        contact_.to_numbers()},
-       {"rigid_body", "-",
-        "the drop as a rigid body, if it is one: mass (kg/m), moment of inertia (kg m), centre x, y (m), angle; half a "
-        "step back velocity x, y (m/s), spin (1/s); acceleration x, y (m/s2), angular (1/s2); velocity x, y, spin",
-        rigid_body_.to_numbers()}}};
+  return {StoredParticles("fluid", fluid_, fluid_total_),
+          StoredParticles("solid", solid_, solid_total_),
+          {clock_numbers({time_, step_, steps_.previous}),
+           {"surface", "-", "surface tension: whether the curves were detected, length that came with detections (m)",
+            surface_tension_.to_numbers()},
+           {"contact", "-", "record of the contact and the load of the last step", contact_.to_numbers()},
+           {"rigid_body", "-", "the drop as a rigid body", rigid_body_.to_numbers()}}};
 }
 
 void Simulation::settle() {
