@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -52,11 +53,11 @@ interval = {checkpoint_interval:g}
 """
 
 
-def command_line(*arguments: str | Path, ranks: int = 1, options: tuple[str, ...] = ()) -> list[str]:
+def command_line(*arguments: str | Path | float, ranks: int = 1, options: tuple[str, ...] = ()) -> list[str]:
     return [MPIEXEC, "-n", str(ranks), *options, PROGRAM, *map(str, arguments)]
 
 
-def run(*arguments: str | Path, ranks: int = 1, directory: Path | None = None, options: tuple[str, ...] = (),
+def run(*arguments: str | Path | float, ranks: int = 1, directory: Path | None = None, options: tuple[str, ...] = (),
         seconds: float = 120) -> subprocess.CompletedProcess[str]:
     """The program's whole life; it ends with 124 or 137 if it takes longer."""
     command = ["timeout", "-k", "5", str(seconds), *command_line(*arguments, ranks=ranks, options=options)]
@@ -111,6 +112,11 @@ def checkpoints(directory: Path) -> list[Path]:
 
 def step_of(checkpoint: Path) -> int:
     return int(checkpoint.stem.removeprefix("checkpoint_"))
+
+
+def tell(fault: str, outcome: str, code: int | None, start: float) -> None:
+    """A row of the tables in tests/fault/README.md; `start` by time.monotonic()."""
+    print(f"| {fault} | {outcome} | {code} | {time.monotonic() - start:.1f} |", flush=True)
 
 
 class ProgramTest(unittest.TestCase):
