@@ -15,8 +15,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "io"))
 
-PROGRAM = os.environ["SPHDROP_PROGRAM"]
-MPIEXEC = os.environ["SPHDROP_MPIEXEC"]
+PROGRAM = os.environ.get("SPHDROP_PROGRAM", str(ROOT / "build" / "release" / "src" / "sphdrop"))
+MPIEXEC = os.environ.get("SPHDROP_MPIEXEC", "mpiexec")
 LONG = os.environ.get("SPHDROP_LONG_TESTS") == "1"
 
 DONE, MISTAKE, UNSAFE, NO_OUTPUT, INTERRUPTED = 0, 2, 3, 4, 5
