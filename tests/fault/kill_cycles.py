@@ -1,5 +1,5 @@
 """Kills a run again and again - one rank, mpiexec, or a rank inside a write - and goes on each time with --restart auto,
-on another number of ranks, until the run is done; then the next run begins. After every kill all processes must be gone
+on a random number of ranks, until the run is done; then the next run begins. After every kill all processes must be gone
 in time, every snapshot in the index must open and no checkpoint may be lost; every finished run must have left the same
 bytes as one that was never killed.
 
