@@ -19,7 +19,7 @@ from running_program import (  # noqa: E402
     DONE,
     INTERRUPTED,
     LONG,
-    ProgramTest,
+    ComparedTest,
     checkpoints,
     hashes_in,
     interrupted,
@@ -42,17 +42,9 @@ HELD = interrupted("fsync", "history.csv", by=signal.SIGSTOP, number=1)
 STOPPING = (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2)
 
 
-class InterruptionTest(ProgramTest):
+class InterruptionTest(ComparedTest):
     case_text = little_case(end=400e-6, snapshot_interval=80e-6, checkpoint_interval=50e-6) if LONG else little_case(
         end=80e-6, snapshot_interval=16e-6, checkpoint_interval=10e-6)
-    whole_hash: str
-    whole: dict[str, bytes]
-
-    @classmethod
-    def setUpClass(cls) -> None:
-        maker = cls.at_class_level()
-        cls.whole_hash = state_hash(maker.run_here())
-        cls.whole = results(maker.output)
 
     def start(self, *arguments: str, options: tuple[str, ...]) -> BackgroundRun:
         return BackgroundRun("little.cfg", "--quiet", *arguments, ranks=3, directory=self.directory, options=options)

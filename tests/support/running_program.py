@@ -132,15 +132,6 @@ class ProgramTest(unittest.TestCase):
         self.case = self.directory / "little.cfg"
         self.case.write_text(self.case_text, encoding="utf-8")
 
-    @classmethod
-    def at_class_level(cls) -> ProgramTest:
-        """A folder for all tests of the class."""
-        maker = ProgramTest()
-        maker.case_text = cls.case_text
-        cls.addClassCleanup(maker.doCleanups)
-        maker.setUp()
-        return maker
-
     def run_here(self, *arguments: str | Path, ranks: int = 1, code: int | None = DONE,
                  options: tuple[str, ...] = ()) -> subprocess.CompletedProcess[str]:
         if code == MISTAKE:
@@ -158,3 +149,20 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(sorted(found), sorted(expected), what)
         for name, content in expected.items():
             self.assertTrue(found[name] == content, f"{what}: {name} is another")
+
+
+class ComparedTest(ProgramTest):
+    """With what a run leaves that was left alone, to compare with."""
+
+    undisturbed: ProgramTest  # its folder
+    whole_hash: str
+    whole: dict[str, bytes]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.undisturbed = ProgramTest()
+        cls.undisturbed.case_text = cls.case_text
+        cls.addClassCleanup(cls.undisturbed.doCleanups)
+        cls.undisturbed.setUp()
+        cls.whole_hash = state_hash(cls.undisturbed.run_here())
+        cls.whole = results(cls.undisturbed.output)
