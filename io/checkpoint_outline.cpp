@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::string_view about =
     "State of a simulation by sphdrop, to go on from. /case: the case as it was run. /<table>/<column>: row k belongs "
-    "to "
-    "the particle with the id first_id + k. /run: numbers of the whole run. All in SI units, the attribute time in s.";
+    "to the particle with the id first_id + k. /run: numbers of the whole run. All in SI units, the attribute time "
+    "in s; the unit - stands for several, which the description names. state_hash: of the tables as they are here.";
 
 std::string format_name() {
   return fmt::format("sphdrop checkpoint {}", checkpoint_format);

@@ -59,8 +59,9 @@ std::vector<CheckpointNumbers> Recorder::save() const {
   if (first_)
     for (const ObservedQuantity& q : observed_quantities()) first.push_back((*first_).*q.value);
   const Case::Output& output = simulation_.input().output;
-  return {{"first_observation", "-", "the history's first row, if it is written", std::move(first)},
-          {"extremes", "-", "widest drop, deepest beam and rebound so far", extremes_.to_numbers()},
+  return {{"first_observation", "-", "the history's first row, if it is written; columns as there", std::move(first)},
+          {"extremes", "-", "widest drop, deepest beam (times in s, values in m) and rebound so far",
+           extremes_.to_numbers()},
           {"ringing_times", "s", "times of the history's rows since the last contact", ringing_times_},
           {"ringing_deflections", "m", "deflections at these times", ringing_deflections_},
           {"due_times",

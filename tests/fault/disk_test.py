@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from running_program import (  # noqa: E402
     AT_ONCE,
     NO_OUTPUT,
-    ProgramTest,
+    ComparedTest,
     checkpoints,
     interrupted,
     results,
@@ -25,18 +25,14 @@ def held(number: int | str = 1) -> tuple[str, ...]:
     return AT_ONCE + interrupted("fsync", "history.csv", by=signal.SIGSTOP, number=number)
 
 
-class DiskTest(ProgramTest):
-    whole_hash: str
-    whole: dict[str, bytes]
+class DiskTest(ComparedTest):
     names: list[str]  # of all checkpoints that the run writes on its way
 
     @classmethod
     def setUpClass(cls) -> None:
-        maker = cls.at_class_level()
-        cls.whole_hash = state_hash(maker.run_here())
-        cls.whole = results(maker.output)
-        maker.run_here("--output", "all", "--set", "checkpoint.keep=1000")
-        cls.names = [path.name for path in checkpoints(maker.directory / "all")]
+        super().setUpClass()
+        cls.undisturbed.run_here("--output", "all", "--set", "checkpoint.keep=1000")
+        cls.names = [path.name for path in checkpoints(cls.undisturbed.directory / "all")]
 
     def assert_goes_on_to_the_same_end(self, *arguments: str) -> None:
         result = self.run_here("--restart", "latest", *arguments, ranks=2)

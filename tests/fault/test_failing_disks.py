@@ -5,10 +5,11 @@ going on from there ends as if nothing had happened.
 from __future__ import annotations
 
 import signal
+import time
 import unittest
 
 from disk_test import DiskTest  # also finds the modules in tests/support
-from running_program import AT_ONCE, DONE, NO_OUTPUT, checkpoints, preloaded, results, state_hash
+from running_program import AT_ONCE, DONE, NO_OUTPUT, checkpoints, preloaded, results, state_hash, tell
 
 # Bytes that reach the disk before it fails: the file has its outline and lacks its values.
 AFTER = 20_000
@@ -26,7 +27,10 @@ class Failing(DiskTest):
                 self.setUp()
                 first, second = self.names[:2]
                 options = failing(f"{second}.part", mode, AFTER)
+                start = time.monotonic()
                 result = self.run_here(ranks=ranks, options=options)
+                tell(f"{mode} failure at a checkpoint, {ranks} ranks", "warns and goes on to the same bytes",
+                     result.returncode, start)
                 self.assertEqual(state_hash(result), self.whole_hash)
                 self.assert_tells(0, result.stderr, f"warning: the checkpoint out/{second} could not be written",
                                   f"; the run goes on, its last checkpoint is out/{first}", expected=DONE)
@@ -39,7 +43,11 @@ class Failing(DiskTest):
                             (snapshot, 2 * AFTER)):
             with self.subTest(file=file, after=after):
                 self.setUp()
+                start = time.monotonic()
                 result = self.run_here(ranks=3, code=None, options=failing(file, "error", after))
+                tell(f"errors for good after {after} bytes of {file.removesuffix('.part')}",
+                     "warns and goes on" if result.returncode == DONE else
+                     "tells it and ends; goes on from a checkpoint to the same bytes", result.returncode, start)
                 may_go_on = file == checkpoint and "stopping." not in result.stderr
                 self.assert_tells(result.returncode, result.stderr, expected=DONE if may_go_on else NO_OUTPUT)
                 self.assertIn(f"out/{file.removesuffix('.part')}", result.stderr)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
+import time
 import unittest
 
 from disk_test import LONGEST_END, DiskTest, held  # also finds the modules in tests/support
 from background_run import BackgroundRun, send
-from running_program import DONE, MISTAKE, checkpoints, hashes_in, results, state_hash
+from running_program import DONE, MISTAKE, checkpoints, hashes_in, results, state_hash, tell
 
 
 class Folders(DiskTest):
@@ -19,9 +20,11 @@ class Folders(DiskTest):
         with self.start(ranks=3) as running:
             rank = running.held_rank()
             self.output.rename(self.directory / "gone")
+            start = time.monotonic()
             send(rank, signal.SIGCONT)
             code = running.end()
             running.seconds_until_gone(LONGEST_END)
+            tell("the folder vanishes", "warns at the next checkpoint, tells and ends at the next snapshot", code, start)
             self.assert_tells(code, running.text(1), "warning: the checkpoint out/checkpoint_",
                               "sphdrop: the snapshot out/snapshot_000001.vtkhdf could not be written: ")
         self.assertFalse(self.output.exists())
@@ -40,7 +43,10 @@ class Folders(DiskTest):
         with self.start(ranks=2) as first:
             rank = first.held_rank()
             for ranks, arguments in ((1, ["--fresh"]), (3, ["--restart", "auto"])):
+                start = time.monotonic()
                 result = self.run_here(*arguments, ranks=ranks, code=MISTAKE)
+                tell(f"a second run into the folder, {' '.join(arguments)}", "refused; the first is not disturbed",
+                     result.returncode, start)
                 self.assert_tells(result.returncode, result.stderr, f"another run is writing into out (process {rank} on ",
                                   expected=MISTAKE)
             send(rank, signal.SIGCONT)

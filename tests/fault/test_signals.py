@@ -1,5 +1,5 @@
 """Signals and the wall time stop the program in good order, whenever they come; what goes on from there ends as if it
-had never stopped. Prints a table of what was sent, and how long it took.
+had never stopped. Prints rows for the tables in README.md.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from running_program import (  # noqa: E402
     DONE,
     INTERRUPTED,
     LONG,
-    ProgramTest,
+    ComparedTest,
     checkpoints,
     hashes_in,
     interrupted,
@@ -28,6 +28,7 @@ from running_program import (  # noqa: E402
     results,
     run,
     state_hash,
+    tell,
 )
 
 # mpiexec that gets SIGTERM or SIGINT waits so many seconds (1 unless told), sends SIGTERM to the ranks, waits as long again
@@ -41,23 +42,9 @@ HELD = interrupted("fsync", "history.csv", by=signal.SIGSTOP, number=1)
 STOPPING = (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2)
 
 
-class InterruptionTest(ProgramTest):
+class InterruptionTest(ComparedTest):
     case_text = little_case(end=400e-6, snapshot_interval=80e-6, checkpoint_interval=50e-6) if LONG else little_case(
         end=80e-6, snapshot_interval=16e-6, checkpoint_interval=10e-6)
-    whole_hash: str
-    whole: dict[str, bytes]
-    table: list[str]
-
-    @classmethod
-    def setUpClass(cls) -> None:
-        maker = cls.at_class_level()
-        cls.whole_hash = state_hash(maker.run_here())
-        cls.whole = results(maker.output)
-        cls.table = []
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        print("\n".join(["", *cls.table]), flush=True)
 
     def start(self, *arguments: str, options: tuple[str, ...]) -> BackgroundRun:
         return BackgroundRun("little.cfg", "--quiet", *arguments, ranks=3, directory=self.directory, options=options)
@@ -101,11 +88,9 @@ class Signals(InterruptionTest):
                 send(held, signal.SIGCONT)
             code = running.end()
             running.seconds_until_gone(LONGEST_END)
-            took = time.monotonic() - start
             text = running.text(1)
         step = self.assert_stopped_well(f"{(signal.SIGTERM if ends_mpiexec else number).name} came", text)
-        self.table.append(f"{number.name:8} to {target:8} mpiexec returned {code:3}, gone after {took:5.2f} s, step {step}")
-        self.assertLess(took, LONGEST_END)
+        tell(f"{number.name} to {target}", f"stops after step {step} with a checkpoint", code, start)
         self.assertEqual(code, 1 if ends_mpiexec else INTERRUPTED, text)
         self.assert_goes_on_to_the_same_end(ranks=2)
 
@@ -145,10 +130,12 @@ class Signals(InterruptionTest):
         ):
             with self.subTest(signal=number.name, call=call, file=file):
                 self.setUp()
+                start = time.monotonic()
                 result = self.run_here(ranks=3, code=INTERRUPTED,
                                        options=AT_ONCE + interrupted(call, file, by=number, number=count, rank=rank))
                 step = self.assert_stopped_well(f"{number.name} came", result.stderr)
-                self.table.append(f"{number.name:8} in {call} {file}: mpiexec returned {result.returncode}, step {step}")
+                tell(f"{number.name} to rank {rank} in {call} {file}".rstrip(), f"stops after step {step} with a checkpoint",
+                     result.returncode, start)
                 self.assert_goes_on_to_the_same_end(ranks=2)
 
     def test_a_rank_that_sleeps_for_a_while_delays_the_run_only(self) -> None:
@@ -156,8 +143,10 @@ class Signals(InterruptionTest):
             rank = running.held_rank()
             time.sleep(10 if LONG else 1)
             self.assertIsNone(running.process.poll())
+            start = time.monotonic()
             send(rank, signal.SIGCONT)
             self.assertEqual(running.end(), DONE, running.text(1))
+            tell("SIGSTOP and SIGCONT to a rank", "waits for it, the same bytes", DONE, start)
             self.assertEqual(hashes_in(running.text(0)), [self.whole_hash])
         self.assert_same_results(results(self.output), self.whole)
 
@@ -190,15 +179,18 @@ class WallTime(InterruptionTest):
         self.assertIn(INTERRUPTED, codes)
         self.assertEqual(state_hash(result), self.whole_hash)
         self.assert_same_end()
-        self.table.append(f"--max-walltime {limit:.2f}: {len(codes)} jobs, returned {codes}")
+        tell(f"--max-walltime {limit:.1f}", f"{len(codes)} jobs, each in good time; they return {codes}",
+             result.returncode, start)
 
     def test_a_clock_that_jumps_does_not_matter(self) -> None:
         for jump in (-86400, 86400):
             with self.subTest(jump=jump):
                 self.setUp()
+                start = time.monotonic()
                 options = preloaded("SPHDROP_INTERRUPTED_CALLS", CLOCK_JUMP=jump, INTERRUPT_CALL="fsync", INTERRUPT_RANK=0,
                                     INTERRUPT_FILE="history_columns.json.part", INTERRUPT_NUMBER=0)
                 result = self.run_here("--max-walltime", "100", ranks=2, options=options)
+                tell(f"the clock jumps by {jump} s", "takes no notice, the same bytes", result.returncode, start)
                 self.assertEqual(state_hash(result), self.whole_hash)
                 self.assert_same_results(results(self.output), self.whole)
                 record = self.record()

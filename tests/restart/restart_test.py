@@ -9,25 +9,21 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from running_program import LONG, MISTAKE, ProgramTest, results, state_hash  # noqa: E402
+from running_program import LONG, MISTAKE, ComparedTest, results, state_hash  # noqa: E402
 
 
-class RestartTest(ProgramTest):
+class RestartTest(ComparedTest):
     """In each folder lies a run that has come to 20 us of 40 us, with two checkpoints."""
 
     template: Path
-    whole_hash: str
-    whole: dict[str, bytes]
 
     @classmethod
     def setUpClass(cls) -> None:
-        maker = cls.at_class_level()
-        cls.whole_hash = state_hash(maker.run_here())
-        cls.whole = results(maker.output)
-        maker.setUp()
-        maker.run_here("--until", "20e-6")
-        cls.mark_as_unfinished(maker.output)
-        cls.template = maker.output
+        super().setUpClass()
+        cls.undisturbed.setUp()
+        cls.undisturbed.run_here("--until", "20e-6")
+        cls.mark_as_unfinished(cls.undisturbed.output)
+        cls.template = cls.undisturbed.output
 
     @staticmethod
     def mark_as_unfinished(output: Path) -> None:

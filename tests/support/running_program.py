@@ -8,14 +8,15 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "io"))
 
-PROGRAM = os.environ["SPHDROP_PROGRAM"]
-MPIEXEC = os.environ["SPHDROP_MPIEXEC"]
+PROGRAM = os.environ.get("SPHDROP_PROGRAM", str(ROOT / "build" / "release" / "src" / "sphdrop"))
+MPIEXEC = os.environ.get("SPHDROP_MPIEXEC", "mpiexec")
 LONG = os.environ.get("SPHDROP_LONG_TESTS") == "1"
 
 DONE, MISTAKE, UNSAFE, NO_OUTPUT, INTERRUPTED = 0, 2, 3, 4, 5
@@ -52,11 +53,11 @@ interval = {checkpoint_interval:g}
 """
 
 
-def command_line(*arguments: str | Path, ranks: int = 1, options: tuple[str, ...] = ()) -> list[str]:
+def command_line(*arguments: str | Path | float, ranks: int = 1, options: tuple[str, ...] = ()) -> list[str]:
     return [MPIEXEC, "-n", str(ranks), *options, PROGRAM, *map(str, arguments)]
 
 
-def run(*arguments: str | Path, ranks: int = 1, directory: Path | None = None, options: tuple[str, ...] = (),
+def run(*arguments: str | Path | float, ranks: int = 1, directory: Path | None = None, options: tuple[str, ...] = (),
         seconds: float = 120) -> subprocess.CompletedProcess[str]:
     """The program's whole life; it ends with 124 or 137 if it takes longer."""
     command = ["timeout", "-k", "5", str(seconds), *command_line(*arguments, ranks=ranks, options=options)]
@@ -113,6 +114,11 @@ def step_of(checkpoint: Path) -> int:
     return int(checkpoint.stem.removeprefix("checkpoint_"))
 
 
+def tell(fault: str, outcome: str, code: int | None, start: float) -> None:
+    """A row of the tables in tests/fault/README.md; `start` by time.monotonic()."""
+    print(f"| {fault} | {outcome} | {code} | {time.monotonic() - start:.1f} |", flush=True)
+
+
 class ProgramTest(unittest.TestCase):
     """A folder with little.cfg for each test; results go to its folder out."""
 
@@ -125,15 +131,6 @@ class ProgramTest(unittest.TestCase):
         self.output = self.directory / "out"
         self.case = self.directory / "little.cfg"
         self.case.write_text(self.case_text, encoding="utf-8")
-
-    @classmethod
-    def at_class_level(cls) -> ProgramTest:
-        """A folder for all tests of the class."""
-        maker = ProgramTest()
-        maker.case_text = cls.case_text
-        cls.addClassCleanup(maker.doCleanups)
-        maker.setUp()
-        return maker
 
     def run_here(self, *arguments: str | Path, ranks: int = 1, code: int | None = DONE,
                  options: tuple[str, ...] = ()) -> subprocess.CompletedProcess[str]:
@@ -152,3 +149,20 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(sorted(found), sorted(expected), what)
         for name, content in expected.items():
             self.assertTrue(found[name] == content, f"{what}: {name} is another")
+
+
+class ComparedTest(ProgramTest):
+    """With what a run leaves that was left alone, to compare with."""
+
+    undisturbed: ProgramTest  # its folder
+    whole_hash: str
+    whole: dict[str, bytes]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.undisturbed = ProgramTest()
+        cls.undisturbed.case_text = cls.case_text
+        cls.addClassCleanup(cls.undisturbed.doCleanups)
+        cls.undisturbed.setUp()
+        cls.whole_hash = state_hash(cls.undisturbed.run_here())
+        cls.whole = results(cls.undisturbed.output)

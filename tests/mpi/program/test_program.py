@@ -11,7 +11,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 import running_program  # noqa: E402
 from running_program import MISTAKE, UNSAFE, little_case, run, state_hash  # noqa: E402
-from sphdrop_reader import Run  # noqa: E402
+from sphdrop_reader import Checkpoint, Run  # noqa: E402
 
 CASE = little_case(end=8e-6, snapshot_interval=4e-6)
 
@@ -75,6 +75,22 @@ class Results(ProgramTest):
         self.assertIn("replacing", result.stderr)
         self.assertEqual(len(Run(self.directory / "out").snapshots), 2)
         self.assertFalse((self.directory / "out" / "snapshot_000002.vtkhdf").exists())
+
+    def test_a_checkpoint_read_in_python_is_the_snapshot_of_the_same_step(self) -> None:
+        run(self.case, "--output", self.directory / "out", ranks=3)
+        results = Run(self.directory / "out")
+        snapshot, checkpoint = results.snapshots[-1], Checkpoint(results.checkpoints[0])
+        self.assertEqual((checkpoint.time, checkpoint.step), (snapshot.time, snapshot.step))
+        self.assertEqual(checkpoint.case_name, "little")
+        self.assertIn("diameter = ", checkpoint.case_text)
+        self.assertEqual(checkpoint.numbers["clock"][:2].tolist(), [snapshot.time, snapshot.step])
+        for name, mask in (("fluid", snapshot.fluid), ("solid", snapshot.solid)):
+            table = checkpoint.tables[name]
+            self.assertEqual(table.ids.tolist(), mask.nonzero()[0].tolist())
+            for axis, column in enumerate(("position_x", "position_y")):
+                self.assertEqual(table[column].tolist(), snapshot["position"][mask, axis].tolist())
+            self.assertEqual(table["mass"].tolist(), snapshot["mass"][mask].tolist())
+        self.assertNotEqual(checkpoint.state_hash, snapshot.state_hash, "FORMAT.md says that they differ")
 
     def test_the_summary_says_what_happened(self) -> None:
         result = run(self.case, "--output", self.directory / "out", ranks=2)
