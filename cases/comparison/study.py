@@ -44,7 +44,7 @@ LEVELS = ("paper", "quick", "short")
 # What a unit of expected.csv is in SI units.
 UNITS = {
     "1": 1.0, "%": 1e-2, "s": 1.0, "ms": 1e-3, "us": 1e-6, "m": 1.0, "mm": 1e-3, "um": 1e-6, "m/s": 1.0, "rad/s": 1.0,
-    "rad": 1.0, "Hz": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "N s/m": 1.0, "J/m": 1.0, "1/m": 1.0,
+    "rad": 1.0, "deg": math.pi / 180, "Hz": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "N s/m": 1.0, "J/m": 1.0, "1/m": 1.0,
 }
 
 

@@ -156,7 +156,9 @@ void Recorder::write_row() {
   }
   last_ = o;
   last_->unaccounted = last_->unaccounted - (first_->step == o.step ? o.unaccounted : 0.0);
-  const std::int64_t touching = static_cast<std::int64_t>(o.contact_count);
+  // A drop that wets the solid touches it as long as it has a base.
+  const double touch = std::isfinite(o.base_width) ? (o.base_width > 0 ? 1.0 : 0.0) : o.contact_count;
+  const auto touching = static_cast<std::int64_t>(touch);
   if (std::isfinite(o.drop_width) || std::isfinite(o.deflection))
     extremes_.add(o.time, std::isfinite(o.drop_width) ? o.drop_width : 0.0,
                   std::isfinite(o.deflection) ? o.deflection : 0.0, touching,

@@ -226,9 +226,10 @@ SavedSimulation Simulation::save() const {
   return {StoredParticles("fluid", fluid_, fluid_total_),
           StoredParticles("solid", solid_, solid_total_),
           {clock_numbers({time_, step_, steps_.previous}),
-           {"surface", "-", "surface tension: whether the curves were detected, length that came with detections (m)",
+           {"surface", "-",
+            "surface tension: whether the curves were detected, length and base that came with detections (m)",
             surface_tension_.to_numbers()},
-           {"contact", "-", "record of the contact and the load of the last step", contact_.to_numbers()},
+           {"contact", "-", "record of the contact, its heat and the load of the last step", contact_.to_numbers()},
            {"rigid_body", "-", "the drop as a rigid body", rigid_body_.to_numbers()},
            {"gauge_pressure", "Pa", "the drop's gauge pressure, and what it tends to", gauge_.to_numbers()}}};
 }

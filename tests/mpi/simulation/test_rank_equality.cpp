@@ -97,6 +97,46 @@ damping_ratio = 0.1
 wall_drag = 20.0
 )";
 
+// The curve's forces act on the beam, over its free end too, from the first instant on.
+constexpr const char* wetted_cantilever = R"(
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+diameter = 0.6e-3
+velocity = [0.2, -2.0]
+gap = 1e-6
+[solid]
+kind = "cantilever"
+length = 2e-3
+[surface_tension]
+contact_angle = 40.0
+[contact]
+stiffness_form = "fixed"
+wall_drag = 1.0
+)";
+
+constexpr const char* wetted_wall = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+diameter = 0.8e-3
+velocity = [0.0, -1.0]
+centre_x = 0.7e-3
+gap = 1e-6
+[solid]
+kind = "rigid_wall"
+length = 2e-3
+[surface_tension]
+contact_angle = 120.0
+detection_displacement = 0.1
+)";
+
 constexpr const char* oscillating_drop = R"(
 [resolution]
 spacing = 0.05e-3
@@ -231,6 +271,8 @@ INSTANTIATE_TEST_SUITE_P(Cases, RankEquality,
                                          EqualityCase{"fixed_fixed", fixed_fixed, 300, 0xba133bd81299003b},
                                          EqualityCase{"rigid_wall", rigid_wall, 300, 0x05099cca370879b8},
                                          EqualityCase{"resisting_contact", resisting_contact, 300, 0x9b54e3511de240dc},
+                                         EqualityCase{"wetted_cantilever", wetted_cantilever, 400, 0x204cae63d459b007},
+                                         EqualityCase{"wetted_wall", wetted_wall, 300, 0xa13a01f0ab0c0f15},
                                          EqualityCase{"oscillating_drop", oscillating_drop, 200, 0x10767d66cf98d385},
                                          EqualityCase{"square_drop", square_drop, 150, 0x523fc3a1d17f4e1d},
                                          EqualityCase{"free_vibration", free_vibration, 200, 0x4559d4d28dc930db},
