@@ -80,8 +80,9 @@ constexpr Parameter table[] = {
     {"mode", "", "-",
      WordParameter{mode_words, [](const C& c) { return static_cast<std::size_t>(c.mode); },
                    [](C& c, std::size_t position) { c.mode = static_cast<Mode>(position); }, 0},
-     "scheme that \"auto\" values choose: paper = as printed, completed where the print is silent; modern = what works "
-     "better"},
+     "scheme that parameters left to themselves choose: paper = as printed, completed where the print is silent; "
+     "modern = "
+     "what works better"},
 
     {"resolution.spacing", "d_ini", "m",
      real<&C::resolution, &C::Resolution::spacing>(Required{}, positive(largest_length)),

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "config/derived_defaults.hpp"
 #include "setup/setup_error.hpp"
 #include "simulation/cell_step.hpp"
 #include "simulation/hypoelastic_step.hpp"
@@ -12,7 +11,8 @@ namespace sphdrop {
 std::unique_ptr<SolidStep> make_solid_step(const Case& input, const HypoelasticParameters& parameters,
                                            const InitialSolid& initial, std::int64_t first_id) {
   // A wall has no stress to compute, whatever the formulation.
-  if (!has_beam(input) || input.solid.formulation == SolidFormulation::hypoelastic)
+  const bool is_beam = input.solid.kind == SolidKind::cantilever || input.solid.kind == SolidKind::fixed_fixed_beam;
+  if (!is_beam || input.solid.formulation == SolidFormulation::hypoelastic)
     return std::make_unique<HypoelasticStep>(input, parameters);
   try {
     return std::make_unique<CellStep>(input, parameters.material, initial, first_id);

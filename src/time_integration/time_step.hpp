@@ -20,13 +20,13 @@ struct TimeStepLimits {
   double viscous_time = 0;      ///< of a solid with stiffness-proportional damping, s
 };
 
-/// 0.1 h/(c + u_max), s (40). Stiffness-proportional damping, as the explicit step lags it, shortens it as it damps the
-/// fastest mode, omega about 4 c/h: by sqrt(1 + z^2) - z with the damping ratio z = viscous_time omega/2 (Belytschko,
-/// Liu & Moran 2000, 6.2.3).
+/// 0.1 h/(c + u_max), s (40). Stiffness-proportional damping shortens it by sqrt(1 + z^2) - z (Belytschko, Liu & Moran
+/// 2000, 6.2.3), where z = viscous_time omega, with omega about 4 c/h, is twice the damping ratio of the fastest mode:
+/// the predicted velocity, from which the damping is computed, halves what such a step stands.
 inline double acoustic_time_step(const TimeStepLimits& l, double largest_speed) {
   const double step = l.sound_cfl * l.smoothing_length / (l.sound_speed + largest_speed);
   if (l.viscous_time <= 0) return step;
-  const double ratio = 2.0 * l.viscous_time * l.sound_speed / l.smoothing_length;
+  const double ratio = 4.0 * l.viscous_time * l.sound_speed / l.smoothing_length;
   return step / (std::sqrt(1.0 + ratio * ratio) + ratio);
 }
 /// 0.1 sqrt(rho h^3/(2 pi sigma)), s (41).

@@ -189,6 +189,46 @@ length = 2e-3
 acceleration = [1.0, -9.81]
 )";
 
+// So soft that the beam goes down by several spacings under the drop, and its free end with it.
+constexpr const char* cells = R"(
+mode = "modern"
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 1e-3
+[drop]
+diameter = 0.6e-3
+velocity = [0.2, -3.0]
+gap = 1e-6
+[solid]
+kind = "cantilever"
+length = 2e-3
+youngs_modulus = 6e6
+clamp = "ideal"
+[gravity]
+acceleration = [1.0, -9.81]
+)";
+
+constexpr const char* damped_cells = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+diameter = 0.6e-3
+velocity = [0.0, -3.0]
+gap = 1e-6
+[solid]
+kind = "fixed_fixed_beam"
+length = 2e-3
+youngs_modulus = 20e6
+formulation = "cells"
+material_law = "neo_hookean"
+damping_ratio = 0.1
+viscous_time = 1e-8
+)";
+
 // Half of it over the end of the wall.
 constexpr const char* rigid_square = R"(
 [resolution]
@@ -259,6 +299,14 @@ TEST(ListEquality, TheSkinDoesNotMatter) {
   expect_equal(thin, thick, "skin");
 }
 
+TEST(ListEquality, NorDoesItForCells) {
+  const Communicator world(MPI_COMM_WORLD);
+  const WholeState thin = run_steps(world, cells, 300, {"parallel.skin=0.1"});
+  const WholeState thick = run_steps(world, cells, 300, {"parallel.skin=0.7"});
+  EXPECT_GT(thin.redistributions, thick.redistributions);
+  expect_equal(thin, thick, "skin");
+}
+
 TEST(Equality, AnotherCaseHasAnotherHash) {
   const Communicator world(MPI_COMM_WORLD);
   const WholeState one = run_steps(world, cantilever, 20);
@@ -278,7 +326,9 @@ INSTANTIATE_TEST_SUITE_P(Cases, RankEquality,
                                          EqualityCase{"free_vibration", free_vibration, 200, 0x4559d4d28dc930db},
                                          EqualityCase{"tiny_drop", tiny_drop, 100, 0xb48e0b3cc3461e2b},
                                          EqualityCase{"rigid_ball", rigid_ball, 400, 0x16f5c0d39849342a},
-                                         EqualityCase{"rigid_square", rigid_square, 400, 0xbf61398f3fbc045d}),
+                                         EqualityCase{"rigid_square", rigid_square, 400, 0xbf61398f3fbc045d},
+                                         EqualityCase{"cells", cells, 400, 0xc4980657160166fc},
+                                         EqualityCase{"damped_cells", damped_cells, 300, 0x6796322f3a8746e5}),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace

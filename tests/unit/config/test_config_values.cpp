@@ -54,6 +54,10 @@ TEST(Defaults, AreThePapersScheme) {
   EXPECT_EQ(c.drop.material, DropMaterial::liquid);
   EXPECT_EQ(c.drop.diameter, 1e-3);
   EXPECT_EQ(c.drop.initial_spin, 0);
+  EXPECT_EQ(c.solid.formulation, SolidFormulation::hypoelastic);
+  EXPECT_EQ(c.solid.clamp, Clamp::strips);
+  EXPECT_EQ(c.solid.damping_ratio, 0);
+  EXPECT_EQ(c.solid.viscous_time, 0);
   EXPECT_EQ(c.solid.thickness, 0.25e-3);
   EXPECT_EQ(c.solid.youngs_modulus, 300e6);
   EXPECT_EQ(c.solid.poisson_ratio, 0.3);
@@ -75,6 +79,19 @@ TEST(Defaults, AreThePapersScheme) {
   EXPECT_EQ(c.surface_tension.detection_displacement, 0.03);
   EXPECT_EQ(c.gravity.x, 0);
   EXPECT_EQ(c.gravity.y, 0);
+}
+
+TEST(Defaults, OfModeModernAreWhatWorksBetter) {
+  const Case c = read({"mode=modern"});
+  EXPECT_EQ(c.solid.formulation, SolidFormulation::cells);
+  EXPECT_EQ(c.time.sound_cfl, 0.4);
+  // Single keys still decide.
+  const Case mixed = read({"mode=modern", "solid.formulation=hypoelastic", "time.sound_cfl=0.1"});
+  EXPECT_EQ(mixed.solid.formulation, SolidFormulation::hypoelastic);
+  EXPECT_EQ(mixed.time.sound_cfl, 0.1);
+  // The liquid's sound sets the step where the beam is soft, or there is none.
+  EXPECT_EQ(read({"mode=modern", "solid.youngs_modulus=2e6"}).time.sound_cfl, 0.25);
+  EXPECT_EQ(read({"mode=modern", "solid.kind=rigid_wall"}).time.sound_cfl, 0.25);
 }
 
 TEST(DerivedDefaults, FollowFromTheOthers) {
