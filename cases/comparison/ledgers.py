@@ -20,11 +20,12 @@ Array = NDArray[np.float64]
 
 # Stored or moving, given away, and put in from outside the equations of motion. Each with its name in a legend.
 STORED = {"kinetic_fluid": "kinetic, drop", "kinetic_solid": "kinetic, solid", "elastic": "elastic",
-          "compressive": "compressive", "surface": "surface", "adhesion": "adhesion", "contact": "contact", "gravity": "gravity"}
+          "compressive": "compressive", "surface": "surface", "adhesion": "adhesion", "contact": "contact", "gravity": "gravity",
+          "gauge": "gauge pressure"}
 DISSIPATED = {"dissipated_fluid": "dissipated, drop", "dissipated_solid": "dissipated, solid",
               "dissipated_contact": "dissipated, contact"}
 INJECTED = {"density_correction": "density correction", "artificial_stress_work": "artificial stress",
-            "reconnection": "curves detected anew"}
+            "reconnection": "curves detected anew", "gauge_adjustment": "gauge adjustment", "shifting_work": "shifting"}
 
 
 @dataclass(frozen=True)

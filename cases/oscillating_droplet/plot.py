@@ -92,8 +92,11 @@ def radius_of(run: Run) -> float:
 
 
 def effective_viscosity(run: Run) -> float:
-    """alpha c h/16 in m^2/s: what the artificial viscosity on approaching pairs amounts to in two dimensions."""
+    """In m^2/s: mu/rho of a physical viscosity; alpha c h/16 is what the artificial one on approaching pairs amounts to in
+    two dimensions."""
     case = parameters(run)
+    if case["fluid"].get("viscosity_form", "artificial") == "physical":
+        return case["fluid"]["viscosity"] / case["fluid"]["density"]
     smoothing_length = case["resolution"]["smoothing_ratio"] * case["resolution"]["spacing"]
     return case["fluid"]["artificial_viscosity_alpha"] * case["fluid"]["sound_speed"] * smoothing_length / 16
 

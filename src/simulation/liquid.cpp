@@ -86,6 +86,12 @@ void Simulation::account_for_density_diffusion() {
   });
 }
 
+void Simulation::find_shift(double largest_speed) {
+  shifting_.find(fluid_, distribution_, largest_speed, steps_.next);
+  energy_of_shift_ = surface_tension_.energy_of_displacement(shifting_.displacement_x(), shifting_.displacement_y(),
+                                                             gauge_.pressure());
+}
+
 void Simulation::damp_resting_drop() {
   // Velocities fall by e^-10 in the time there is.
   const double rate = 10.0 / case_.drop.relaxation_time;
@@ -103,6 +109,7 @@ void Simulation::start_drop() {
   });
   surface_tension_.start_ledger();
   gauge_.start_ledger();
+  shifting_.start_ledger();
   steps_.previous = 0;  // velocities now belong to this instant, as those of a run's beginning do
 }
 

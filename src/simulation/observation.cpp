@@ -247,10 +247,11 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.dissipated_solid = sum[solid_heat];
   o.density_correction = sum[fluid_correction];
   o.artificial_stress_work = sum[solid_artificial];
+  o.shifting_work = simulation.shifting().work();
   o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.adhesion + o.contact +
             o.gravity + o.gauge;
   o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid + o.dissipated_contact - o.density_correction -
-                  o.artificial_stress_work - o.reconnection - o.gauge_adjustment - initial_total;
+                  o.artificial_stress_work - o.reconnection - o.gauge_adjustment - o.shifting_work - initial_total;
   o.momentum_fluid_x = sum[fluid_momentum_x];
   o.momentum_fluid_y = sum[fluid_momentum_y];
   o.momentum_solid_x = sum[solid_momentum_x];

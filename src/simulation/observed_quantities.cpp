@@ -62,10 +62,12 @@ std::span<const ObservedQuantity> observed_quantities() {
        &O::reconnection},
       {"gauge_adjustment", "J/m", "energy of the gauge that came with changes of the gauge pressure, so far",
        &O::gauge_adjustment},
+      {"shifting_work", "J/m", "energy of surface and gauge that shifts have added so far", &O::shifting_work},
       {"total", "J/m", "kinetic, elastic, compressive, surface, adhesion, contact, gravity and gauge", &O::total},
       {"unaccounted", "J/m",
-       "total + dissipated - density correction - artificial stress - reconnection - gauge adjustment - total at the "
-       "start",
+       "total + dissipated - density correction - artificial stress - reconnection - gauge adjustment - shifting - "
+       "total "
+       "at the start",
        &O::unaccounted},
       {"momentum_fluid_x", "kg/s", "momentum of the liquid", &O::momentum_fluid_x},
       {"momentum_fluid_y", "kg/s", "momentum of the liquid", &O::momentum_fluid_y},

@@ -94,7 +94,7 @@ void Recorder::restore(const Checkpoint& checkpoint) {
   const double now = simulation_.time();
   const auto due_again = [&](double stored, double old_interval, double interval) {
     if (interval == old_interval) return stored;
-    return interval > 0 ? next_multiple(now, interval) : std::numeric_limits<double>::infinity();
+    return interval > 0 ? std::max(0.0, next_multiple(now, interval)) : std::numeric_limits<double>::infinity();
   };
   next_row_ = due_again(due[0], due[2], output.history_interval);
   next_snapshot_ = due_again(due[1], due[3], output.snapshot_interval);

@@ -1,5 +1,7 @@
 #include "simulation/shifting_step.hpp"
 
+#include "diagnostics/number_reader.hpp"
+
 namespace sphdrop {
 
 ShiftingStep::ShiftingStep(const Case& input, const SmoothingKernel& kernel)
@@ -31,6 +33,12 @@ void ShiftingStep::apply(FluidParticles& fluid) {
     fluid.position.x[row] += x_[row];
     fluid.position.y[row] += y_[row];
   });
+}
+
+void ShiftingStep::from_numbers(std::span<const double> numbers) {
+  NumberReader reader(numbers, "shifting's work");
+  work_ = reader.number();
+  reader.expect_end();
 }
 
 }  // namespace sphdrop

@@ -1,6 +1,7 @@
 #pragma once
 // Particle shifting in a run: when it is due, how far, and what it adds to the energy.
 
+#include <span>
 #include <vector>
 
 #include "config/case.hpp"
@@ -21,14 +22,28 @@ class ShiftingStep {
   /// The owned rows' displacements; positions of ghosts and surface_orientation must be good. `largest_speed` of the
   /// liquid in m/s, `step` in s.
   void find(const FluidParticles& fluid, const Distribution& distribution, double largest_speed, double step);
+  /// By row, after find().
+  std::span<const double> displacement_x() const { return x_; }
+  std::span<const double> displacement_y() const { return y_; }
   /// Moves the owned rows, once. Velocities and densities stay as they are.
   void apply(FluidParticles& fluid);
+
+  /// What shifts have added to the energy of surface and gauge so far, J/m.
+  double work() const { return work_; }
+  void add_work(double energy) { work_ += energy; }
+  /// Counts it anew.
+  void start_ledger() { work_ = 0; }
+
+  std::vector<double> to_numbers() const { return {work_}; }
+  /// Throws std::invalid_argument where the numbers are not of to_numbers().
+  void from_numbers(std::span<const double> numbers);
 
  private:
   bool is_enabled_;
   std::int64_t interval_;
   ShiftingParameters parameters_;
   bool is_found_ = false;
+  double work_ = 0;
   std::vector<double> x_, y_;  // by row: gradients, then displacements
 };
 

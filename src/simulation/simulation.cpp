@@ -17,6 +17,8 @@ namespace sphdrop {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 // What one reduction a step brings to all ranks.
 enum Maximum : std::size_t {
   squared_speed,
@@ -26,6 +28,7 @@ enum Maximum : std::size_t {
   squared_detection_displacement,
   failure,
   requested,
+  energy_of_shift,
   maxima_count
 };
 
@@ -122,7 +125,8 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
       rigid_body_(input, initial_fluid),
       maxima_(communicator),
       drop_centre_(initial_fluid.centre),
-      time_(0.0 - input.drop.relaxation_time) {
+      time_(0.0 - input.drop.relaxation_time),
+      energy_of_shift_(-infinity) {
   fluid_ghosted_ = fluid_.columns_with(Role::ghosted);
   if (has_density_diffusion()) {
     fluid_ghosted_.push_back(&fluid_.density_gradient.x);
@@ -172,7 +176,6 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
   for (const std::int32_t index : solid.deflection_probe) deflection_probe_.push_back(fluid_total_ + index);
   for (const std::int32_t index : solid.middle_probe) middle_probe_.push_back(fluid_total_ + index);
 
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   box_low_ = {infinity, infinity};
   box_high_ = {-infinity, -infinity};
   for (const auto* positions : {&fluid.positions, &solid.positions})
@@ -205,6 +208,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
     contact_.from_numbers(checkpoint.numbers_of("contact"));
     rigid_body_.from_numbers(checkpoint.numbers_of("rigid_body"));
     gauge_.from_numbers(checkpoint.numbers_of("gauge_pressure"));
+    shifting_.from_numbers(checkpoint.numbers_of("shifting"));
   } catch (const std::invalid_argument& error) {
     throw CheckpointError(fmt::format("{}: {}", checkpoint.path.string(), error.what()));
   }
@@ -231,13 +235,18 @@ SavedSimulation Simulation::save() const {
             surface_tension_.to_numbers()},
            {"contact", "-", "record of the contact, its heat and the load of the last step", contact_.to_numbers()},
            {"rigid_body", "-", "the drop as a rigid body", rigid_body_.to_numbers()},
-           {"gauge_pressure", "Pa", "the drop's gauge pressure, and what it tends to", gauge_.to_numbers()}}};
+           {"gauge_pressure", "-",
+            "the drop's gauge pressure and what it tends to (Pa), area within the curves (m2), energy by its changes "
+            "(J/m)",
+            gauge_.to_numbers()},
+           {"shifting", "J/m", "energy that shifts have added", shifting_.to_numbers()}}};
 }
 
 void Simulation::settle() {
   if (!settled_.empty()) return;
   settled_ = maxima_.finish();
   gauge_.finish();
+  if (settled_[energy_of_shift] > -infinity) shifting_.add_work(settled_[energy_of_shift]);
   timer_.lap(Phase::communication);
   request_ = settled_[requested];
   check_safety(settled_[failure]);
@@ -292,7 +301,7 @@ void Simulation::evaluate() {
   else
     add_gravity();
   if (has_density_diffusion()) account_for_density_diffusion();
-  if (shifting_.is_due(step_)) shifting_.find(fluid_, distribution_, std::sqrt(squared_liquid_speed_now), steps_.next);
+  if (shifting_.is_due(step_)) find_shift(std::sqrt(squared_liquid_speed_now));
   if (rigid_body_.is_enabled()) add_forces_on_rigid_body();
   if (parameters_.damping_rate > 0) add_mass_proportional_damping(solid_, parameters_.damping_rate);
 }
@@ -330,6 +339,7 @@ void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& soli
   const bool unsound = fluid.beyond_limit || solid.beyond_limit || solid_step_->inversion(solid_).has_value();
   mine[failure] = unsound || too_deep ? 1.0 : 0.0;
   mine[requested] = request;
+  mine[energy_of_shift] = std::exchange(energy_of_shift_, -infinity);  // a number on one rank
   maxima_.start(mine);
 }
 

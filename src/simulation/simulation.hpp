@@ -91,6 +91,7 @@ class Simulation {
   const RigidBodyStep& rigid_body() const { return rigid_body_; }
   const SolidStep& solid_step() const { return *solid_step_; }
   const GaugePressureStep& gauge() const { return gauge_; }
+  const ShiftingStep& shifting() const { return shifting_; }
   const Distribution& distribution() const { return distribution_; }
   /// Global ids of the particles whose mean displacement is the deflection.
   const std::vector<std::int64_t>& deflection_probe() const { return deflection_probe_; }
@@ -121,6 +122,7 @@ class Simulation {
   void account_for_density_diffusion();
   /// Before t = 0 the drop comes to rest; what it starts with is given to it then.
   bool is_relaxing() const { return time_ < 0; }
+  void find_shift(double largest_speed);
   void damp_resting_drop();
   void start_drop();
   double next_step_length(double squared_speed) const;
@@ -156,6 +158,7 @@ class Simulation {
   StepLengths steps_;
   std::span<const double> settled_;  // what move() left under way, once it is known; empty before
   double request_ = 0;
+  double energy_of_shift_;  // at the surface's owner, J/m; minus infinity elsewhere and where nothing is shifted
   bool is_distributed_ = false;
   bool detection_is_due_ = true;
   std::int64_t redistributions_ = 0, detections_ = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "diagnostics/number_reader.hpp"
 #include "fluid/particle_shifting.hpp"
@@ -298,6 +299,24 @@ void SurfaceTensionStep::finish(FluidParticles& fluid) {
     fluid.acceleration.x[row] += returned_x_[row];
     fluid.acceleration.y[row] += returned_y_[row];
   }
+}
+
+double SurfaceTensionStep::energy_of_displacement(std::span<const double> x, std::span<const double> y,
+                                                  double gauge_pressure) {
+  displacement_x_.resize(x_.size());
+  displacement_y_.resize(y_.size());
+  gather_.start_gather(std::array<const void*, 2>{x.data(), y.data()});
+  gather_.finish_gather(std::array<void*, 2>{displacement_x_.data(), displacement_y_.data()});
+  if (owner() != communicator_.rank()) return -std::numeric_limits<double>::infinity();
+  displaced_positions_.resize(node_positions_.size());
+  displaced_points_.resize(points_.size());
+  for (std::size_t k = 0; k < node_particle_.size(); ++k) {
+    const auto index = static_cast<std::size_t>(node_particle_[k]);
+    displaced_positions_[k] = node_positions_[k] + Vector{displacement_x_[index], displacement_y_[index]};
+  }
+  surface_points(curves_, displaced_positions_, spacing_, displaced_points_);
+  return coefficient_ * (total_length(curves_, displaced_points_) - total_length(curves_, points_)) -
+         gauge_pressure * (total_area(curves_, displaced_points_) - total_area(curves_, points_));
 }
 
 SurfaceReport SurfaceTensionStep::report() const {

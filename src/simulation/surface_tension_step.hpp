@@ -64,6 +64,10 @@ class SurfaceTensionStep {
   /// Adds the accelerations to the band's rows.
   void finish(FluidParticles& fluid);
 
+  /// Collective, after work(). What displacing the owned rows by (x, y) (m, by row) adds to the energy of surface and
+  /// gauge, at the owner, J/m; minus infinity at the others.
+  double energy_of_displacement(std::span<const double> x, std::span<const double> y, double gauge_pressure);
+
   int owner() const { return gather_.owner(); }
   /// Length of curve that came or went at once as the surface was detected anew, so far, m: no force did that work. The
   /// same on every rank.
@@ -125,6 +129,8 @@ class SurfaceTensionStep {
   std::vector<std::int32_t> node_particle_;
   std::vector<double> x_, y_, mass_, acceleration_x_, acceleration_y_;
   std::vector<Vector> node_positions_, points_, forces_;
+  std::vector<double> displacement_x_, displacement_y_;
+  std::vector<Vector> displaced_positions_, displaced_points_;
   std::size_t lost_points_ = 0;
 
   // Where the solid attracts the liquid.

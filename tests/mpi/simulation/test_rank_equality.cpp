@@ -258,6 +258,72 @@ diameter = 0.2e-3
 velocity = [0.0, -1.0]
 )";
 
+// Everything that makes the liquid a modern one; by the end half a dozen shifts a redistribution.
+constexpr const char* modern_wall = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+sound_cfl = 0.2
+capillary_cfl = 0.2
+[fluid]
+viscosity_form = "physical"
+gauge_pressure = "on"
+gauge_relaxation_time = 5e-6
+shifting = "on"
+[drop]
+diameter = 0.8e-3
+velocity = [0.0, -2.0]
+gap = 1e-6
+[solid]
+kind = "rigid_wall"
+)";
+
+// The other choices; the drop starts half way.
+constexpr const char* relaxed_drop = R"(
+[resolution]
+spacing = 0.05e-3
+smoothing_ratio = 1.5
+kernel = "wendland_c2"
+[time]
+end = 1e-3
+sound_cfl = 0.2
+capillary_cfl = 0.2
+[fluid]
+viscosity_form = "physical"
+density_treatment = "density_diffusion"
+gauge_pressure = "on"
+shifting = "on"
+shifting_interval = 3
+[drop]
+diameter = 0.8e-3
+relaxation_time = 30e-6
+oscillation_velocity = 1.5
+velocity = [0.5, 0.0]
+)";
+
+// Wendland's kernel under the artificial viscosity.
+constexpr const char* wendland_beam = R"(
+[resolution]
+spacing = 0.0625e-3
+smoothing_ratio = 1.3
+kernel = "wendland_c2"
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[fluid]
+density_treatment = "none"
+gauge_pressure = "on"
+[drop]
+diameter = 0.6e-3
+velocity = [0.2, -3.0]
+gap = 1e-6
+[solid]
+kind = "cantilever"
+length = 2e-3
+artificial_stress_coefficient = 0.0
+)";
+
 class RankEquality : public testing::TestWithParam<EqualityCase> {};
 
 bool same_bits(double a, double b) {
@@ -328,7 +394,10 @@ INSTANTIATE_TEST_SUITE_P(Cases, RankEquality,
                                          EqualityCase{"rigid_ball", rigid_ball, 400, 0x16f5c0d39849342a},
                                          EqualityCase{"rigid_square", rigid_square, 400, 0xbf61398f3fbc045d},
                                          EqualityCase{"cells", cells, 400, 0xc4980657160166fc},
-                                         EqualityCase{"damped_cells", damped_cells, 300, 0x6796322f3a8746e5}),
+                                         EqualityCase{"damped_cells", damped_cells, 300, 0x6796322f3a8746e5},
+                                         EqualityCase{"modern_wall", modern_wall, 300, 0x4ea75a21caf63b8f},
+                                         EqualityCase{"relaxed_drop", relaxed_drop, 200, 0xca191ad84f366b9b},
+                                         EqualityCase{"wendland_beam", wendland_beam, 200, 0x17f379e48b7104c4}),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace

@@ -96,6 +96,19 @@ TEST(ParameterTable, WordsMeanTheirEnumerators) {
   EXPECT_EQ(stored("solid.material_law", "neo_hookean").solid.material_law, MaterialLaw::neo_hookean);
   EXPECT_EQ(stored("solid.clamp", "strips").solid.clamp, Clamp::strips);
   EXPECT_EQ(stored("solid.clamp", "ideal").solid.clamp, Clamp::ideal);
+  EXPECT_EQ(stored("resolution.kernel", "cubic_spline").resolution.kernel, KernelShape::cubic_spline);
+  EXPECT_EQ(stored("resolution.kernel", "wendland_c2").resolution.kernel, KernelShape::wendland_c2);
+  EXPECT_EQ(stored("fluid.viscosity_form", "artificial").fluid.viscosity_form, ViscosityForm::artificial);
+  EXPECT_EQ(stored("fluid.viscosity_form", "physical").fluid.viscosity_form, ViscosityForm::physical);
+  EXPECT_EQ(stored("fluid.density_treatment", "none").fluid.density_treatment, DensityTreatment::none);
+  EXPECT_EQ(stored("fluid.density_treatment", "moving_least_squares").fluid.density_treatment,
+            DensityTreatment::moving_least_squares);
+  EXPECT_EQ(stored("fluid.density_treatment", "density_diffusion").fluid.density_treatment,
+            DensityTreatment::density_diffusion);
+  EXPECT_EQ(stored("fluid.gauge_pressure", "off").fluid.gauge_pressure, Switch::off);
+  EXPECT_EQ(stored("fluid.gauge_pressure", "on").fluid.gauge_pressure, Switch::on);
+  EXPECT_EQ(stored("fluid.shifting", "off").fluid.shifting, Switch::off);
+  EXPECT_EQ(stored("fluid.shifting", "on").fluid.shifting, Switch::on);
   EXPECT_EQ(stored("mode", "paper").mode, Mode::paper);
   EXPECT_EQ(stored("mode", "modern").mode, Mode::modern);
 }

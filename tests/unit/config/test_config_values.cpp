@@ -49,6 +49,15 @@ TEST(Defaults, AreThePapersScheme) {
   EXPECT_EQ(c.fluid.artificial_viscosity_alpha, 0.1);
   EXPECT_EQ(c.fluid.artificial_viscosity_beta, 0);
   EXPECT_EQ(c.fluid.density_correction_interval, 20);
+  EXPECT_EQ(c.resolution.kernel, KernelShape::cubic_spline);
+  EXPECT_EQ(c.fluid.viscosity_form, ViscosityForm::artificial);
+  EXPECT_EQ(c.fluid.density_treatment, DensityTreatment::moving_least_squares);
+  EXPECT_EQ(c.fluid.density_diffusion, 0.1);
+  EXPECT_EQ(c.fluid.gauge_pressure, Switch::off);
+  EXPECT_EQ(c.fluid.gauge_relaxation_time, 20e-6);
+  EXPECT_EQ(c.fluid.shifting, Switch::off);
+  EXPECT_EQ(c.fluid.shifting_interval, 4);
+  EXPECT_EQ(c.drop.relaxation_time, 0);
   EXPECT_EQ(c.drop.shape, DropShape::round);
   EXPECT_EQ(c.drop.arrangement, DropArrangement::rings);
   EXPECT_EQ(c.drop.material, DropMaterial::liquid);
@@ -229,6 +238,22 @@ TEST(Warnings, SpeakOfWhatRunsButMisleads) {
   expect_warning({"fluid.artificial_viscosity_alpha=0"}, "will clump");
   expect_warning({"fluid.density_correction_interval=0"}, "without the correction");
   expect_warning({"solid.length=9e-4"}, "beam theory");
+  expect_warning({"fluid.density_treatment=none"}, "density_treatment = \"none\": without the correction");
+  expect_warning({"fluid.density_treatment=density_diffusion", "fluid.density_diffusion=0"}, "without the correction");
+  expect_warning({"fluid.density_treatment=density_diffusion", "fluid.density_correction_interval=0"}, "");
+  expect_warning({"fluid.viscosity_form=physical", "fluid.artificial_viscosity_alpha=0"}, "");
+  expect_warning({"fluid.viscosity_form=physical", "fluid.viscosity=0"}, "nothing damps the liquid");
+  expect_warning({"fluid.viscosity_form=physical", "time.sound_cfl=0.25"}, "");  // of the beam's sound
+  expect_warning({"fluid.viscosity_form=physical", "time.sound_cfl=0.25", "solid.kind=rigid_wall"}, "may grow");
+  expect_warning({"fluid.viscosity_form=physical", "time.sound_cfl=0.25", "solid.kind=rigid_wall",
+                  "fluid.density_treatment=density_diffusion"},
+                 "");
+  expect_warning({"fluid.viscosity_form=physical", "time.sound_cfl=0.2", "solid.kind=rigid_wall"}, "");
+  expect_warning({"time.sound_cfl=0.3", "solid.kind=rigid_wall"}, "");
+  expect_warning({"resolution.kernel=wendland_c2"}, "take 1.5");
+  expect_warning({"resolution.kernel=wendland_c2", "resolution.smoothing_ratio=1.3",
+                  "solid.artificial_stress_coefficient=0", "solid.clamp_layers=3"},
+                 "");
 }
 
 TEST(Warnings, NameTheirPlace) {

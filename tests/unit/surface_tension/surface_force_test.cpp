@@ -296,5 +296,73 @@ TEST(SurfaceForce, LengthOfADropIsItsCircumference) {
   EXPECT_NEAR(total_length(curves, points), 2.0 * std::numbers::pi * 20.0 * spacing, 1e-3 * 20.0 * spacing);
 }
 
+TEST(PressureForce, IsThePressureTimesTheGradientOfTheArea) {
+  Drop drop = jittered_drop(11);
+  const double pressure = 144.0;
+  std::vector<Vector> forces(drop.points.size(), Vector{1.0, 2.0});  // is added to
+  add_pressure_forces(drop.curves, drop.points, pressure, forces);
+  const double step = 1e-3 * spacing;
+  for (std::size_t k = 0; k < drop.points.size(); k += 7) {
+    for (const Vector direction : {Vector{1, 0}, Vector{0, 1}}) {
+      Positions ahead = drop.points, behind = drop.points;
+      ahead[k] += step * direction;
+      behind[k] -= step * direction;
+      const double gradient = (total_area(drop.curves, ahead) - total_area(drop.curves, behind)) / (2 * step);
+      EXPECT_NEAR(dot(forces[k] - Vector{1.0, 2.0}, direction), pressure * gradient, 1e-9 * pressure * spacing) << k;
+    }
+  }
+}
+
+// Jittered, with a hole.
+TEST(PressureForce, HasNeitherNetForceNorTorqueRoundAnyCurve) {
+  const Drop drop = jittered_drop(12);
+  ASSERT_GE(drop.curves.size(), 2u);
+  std::vector<Vector> forces(drop.points.size());
+  add_pressure_forces(drop.curves, drop.points, 144.0, forces);
+  for (std::size_t c = 0; c < drop.curves.size(); ++c) {
+    const auto curve = drop.curves.curve(c);
+    Vector sum;
+    double torque = 0, magnitude = 0;
+    for (std::size_t k = curve.first; k < curve.last; ++k) {
+      sum += forces[k];
+      torque += cross(drop.points[k], forces[k]);
+      magnitude += length(forces[k]);
+    }
+    EXPECT_LE(length(sum), 1e-14 * magnitude) << c;
+    EXPECT_LE(std::abs(torque), 1e-14 * magnitude * 20 * spacing) << c;
+  }
+}
+
+// On a regular polygon: sigma/(R cos(pi/n)), which is sigma/R of the circle within.
+TEST(PressureForce, OfTheLaplacePressureBalancesTheTension) {
+  const double radius = 5e-4;
+  const int count = 126;
+  const Positions points = ellipse(radius, radius, count);
+  const SurfaceCurves curves = plain_curves({count});
+  std::vector<Vector> forces(points.size());
+  conservative_forces(curves, points, sigma, forces);
+  const double tension = length(forces[0]);
+  add_pressure_forces(curves, points, sigma / (radius * std::cos(std::numbers::pi / count)), forces);
+  for (const Vector& force : forces) EXPECT_LE(length(force), 1e-12 * tension);
+}
+
+TEST(PressureForce, LeavesOutCurvesOfFewerThanThreeNodes) {
+  const SurfaceCurves curves = plain_curves({2});
+  const Positions points{{0, 0}, {spacing, 0}};
+  std::vector<Vector> forces(2);
+  add_pressure_forces(curves, points, 100.0, forces);
+  EXPECT_EQ(forces[0], Vector{});
+  EXPECT_EQ(total_area(curves, points), 0.0);
+}
+
+TEST(TotalArea, IsThatOfTheLiquidWithoutItsHoles) {
+  Positions points = ellipse(5e-4, 3e-4, 1000);
+  Positions hole = ellipse(1e-4, 1e-4, 1000);
+  std::reverse(hole.begin(), hole.end());
+  points = together(moved(points, {7.0, -3.0}), moved(hole, {7.0, -3.0}));
+  const double exact = std::numbers::pi * (5e-4 * 3e-4 - 1e-4 * 1e-4);
+  EXPECT_NEAR(total_area(plain_curves({1000, 1000}), points), exact, 1e-5 * exact);
+}
+
 }  // namespace
 }  // namespace sphdrop
