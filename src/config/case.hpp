@@ -1,13 +1,15 @@
 #pragma once
 // A validated case: everything a run needs to know, in SI units.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace sphdrop {
 
 enum class Mode { paper, modern };
-enum class DropShape { none, round, square };
+enum class DropShape { none, round, square, ellipse };
 enum class DropArrangement { rings, lattice };
 enum class DropMaterial { liquid, rigid };
 enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall };
@@ -21,6 +23,13 @@ enum class KernelShape { cubic_spline, wendland_c2 };
 enum class ViscosityForm { artificial, physical };
 enum class DensityTreatment { none, moving_least_squares, density_diffusion };
 enum class Switch { off, on };
+
+/// A number that a valid case may leave open: NaN, which here equals itself.
+struct OpenNumber {
+  double value = 0;
+  bool is_open() const { return value != value; }
+  bool operator==(const OpenNumber& other) const { return value == other.value || (is_open() && other.is_open()); }
+};
 
 /// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
 /// the table in config/parameter_table.cpp and nowhere else.
@@ -67,11 +76,13 @@ struct Case {
     DropShape shape = DropShape::none;
     DropArrangement arrangement = DropArrangement::rings;
     DropMaterial material = DropMaterial::liquid;
-    double density = 0;                     ///< kg/m3; a liquid's is fluid.density
-    double diameter = 0;                    ///< D0 (round) or side (square), m
+    double density = 0;       ///< kg/m3; a liquid's is fluid.density
+    double diameter = 0;      ///< D0 (round), side (square), that of the circle of the same area (ellipse), m
+    double aspect_ratio = 0;  ///< of an ellipse, width over height
     double velocity_x = 0, velocity_y = 0;  ///< m/s
     double gap = 0;                         ///< at the start, between the surfaces of drop and solid, m
     double centre_x = 0;                    ///< m; x = 0 at the left clamp's edge, or at the middle of a rigid wall
+    OpenNumber centre_y;                    ///< m; open: by the gap above the solid's surface, or 0 without a solid
     double jitter = 0;                      ///< of a lattice start, in units of d
     std::int64_t seed = 0;
     double oscillation_velocity = 0;  ///< V0, m/s
@@ -84,6 +95,7 @@ struct Case {
     bool is_liquid() const { return shape != DropShape::none && material == DropMaterial::liquid; }
     bool operator==(const Drop&) const = default;
   } drop;
+  std::vector<Drop> more_drops;  ///< beside `drop`; all are liquid then
 
   struct Solid {
     SolidKind kind = SolidKind::none;
@@ -172,6 +184,15 @@ struct Case {
   bool is_wetting() const { return surface_tension.contact_angle < 180.0; }
 
   bool operator==(const Case&) const = default;
+
+  std::size_t drop_count() const { return 1 + more_drops.size(); }
+  /// As if drop k = 0, 1, ... were the only one.
+  Case with_drop(std::size_t k) const {
+    Case one = *this;
+    if (k > 0) one.drop = more_drops[k - 1];
+    one.more_drops.clear();
+    return one;
+  }
 };
 
 }  // namespace sphdrop

@@ -15,6 +15,7 @@
 #include "config/parameter_store.hpp"
 #include "config/parameter_table.hpp"
 #include "config/parameter_text.hpp"
+#include "config/several_drops.hpp"
 #include "config/toml_source.hpp"
 
 namespace sphdrop {
@@ -49,16 +50,20 @@ class CaseReader {
     mistakes_.push_back({no_line, fmt::format("--set {}: {}", printable(override_text), message)});
   }
 
-  void take_section(const TomlNode& section);
+  void take_section(const TomlNode& section, std::size_t drop = 0);
+  void take_drops(const TomlNode& array);
   void store_values();
+  void store_given(const Parameter& parameter, std::size_t drop, Case& values);
   void report_missing(const Parameter& parameter);
-  std::string located(const Finding& finding) const;
-  std::string origins(const Finding& finding) const;
+  void find_contradictions();
+  std::string located(const Finding& finding, std::size_t drop) const;
+  std::string origins(const Finding& finding, std::size_t drop) const;
 
   std::string source_name_;
   std::map<std::string, Given, std::less<>> given_;
   std::map<std::string, TomlNode, std::less<>> section_headers_;
-  std::set<std::string_view> unusable_;
+  std::set<std::string, std::less<>> unusable_;
+  std::size_t drop_count_ = 1;
   std::vector<Mistake> mistakes_;
   Case values_;
 };
@@ -66,6 +71,12 @@ class CaseReader {
 bool is_section(std::string_view name) {
   const auto names = section_names();
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_array_of_tables(const TomlNode& node) {
+  return node.kind == TomlNode::Kind::array && !node.elements.empty() &&
+         std::all_of(node.elements.begin(), node.elements.end(),
+                     [](const TomlNode& element) { return element.kind == TomlNode::Kind::table; });
 }
 
 void CaseReader::take_file(const TomlNode& root) {
@@ -76,6 +87,8 @@ void CaseReader::take_file(const TomlNode& root) {
     } else if (is_section(member.name)) {
       if (member.kind == TomlNode::Kind::table) {
         take_section(member);
+      } else if (member.name == "drop" && is_array_of_tables(member)) {
+        take_drops(member);
       } else {
         mistake_in_file(member,
                         fmt::format("{0} is a section, not a key: write [{0}] and its keys below", member.name));
@@ -88,23 +101,36 @@ void CaseReader::take_file(const TomlNode& root) {
   }
 }
 
-void CaseReader::take_section(const TomlNode& section) {
+void CaseReader::take_section(const TomlNode& section, std::size_t drop) {
   section_headers_[section.name] = section;
   for (const TomlNode& member : section.members) {
     const std::string key = section.name + "." + member.name;
     if (find_parameter(key) != nullptr) {
-      given_[key] = {member, ""};
+      given_[key_of_drop(key, drop)] = {member, ""};
     } else {
       mistake_in_file(member, unknown_key_message(section.name, member.name));
     }
   }
 }
 
+void CaseReader::take_drops(const TomlNode& array) {
+  drop_count_ = array.elements.size();
+  for (std::size_t k = 0; k < drop_count_; ++k) {
+    TomlNode drop = array.elements[k];
+    drop.name = "drop";
+    take_section(drop, k);
+  }
+}
+
 void CaseReader::take_overrides(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
     Override parsed = parse_override(text);
-    if (parsed.mistake.empty()) {
-      given_[parsed.key] = {std::move(parsed.value), text};
+    if (parsed.mistake.empty() && parsed.drop >= drop_count_) {
+      mistake_in_override(
+          text, fmt::format("the case has {} drop{}; each further one is a section [[drop]] of its file", drop_count_,
+                            drop_count_ == 1 ? "" : "s"));
+    } else if (parsed.mistake.empty()) {
+      given_[key_of_drop(parsed.key, parsed.drop)] = {std::move(parsed.value), text};
     } else {
       mistake_in_override(text, parsed.mistake);
     }
@@ -119,30 +145,41 @@ void CaseReader::report_missing(const Parameter& parameter) {
                                      parameter.description, allowed_text(parameter), parameter.unit));
 }
 
-void CaseReader::store_values() {
-  for (const Parameter& parameter : parameter_table()) {
-    store_default(parameter, values_);
-    const auto found = given_.find(parameter.key);
-    if (found == given_.end()) {
-      if (!is_required(parameter)) continue;
-      unusable_.insert(parameter.key);
-      report_missing(parameter);
-    } else if (const auto mistake = store(parameter, found->second.node, values_)) {
-      unusable_.insert(parameter.key);
-      if (found->second.override_text.empty()) {
-        mistake_in_file(found->second.node, *mistake);
-      } else {
-        mistake_in_override(found->second.override_text, *mistake);
-      }
+void CaseReader::store_given(const Parameter& parameter, std::size_t drop, Case& values) {
+  store_default(parameter, values);
+  const std::string key = key_of_drop(parameter.key, drop);
+  const auto found = given_.find(key);
+  if (found == given_.end()) {
+    if (!is_required(parameter)) return;
+    unusable_.insert(key);
+    report_missing(parameter);
+  } else if (auto mistake = store(parameter, found->second.node, values)) {
+    unusable_.insert(key);
+    if (drop > 0) mistake->replace(0, parameter.key.size(), key);
+    if (found->second.override_text.empty()) {
+      mistake_in_file(found->second.node, *mistake);
+    } else {
+      mistake_in_override(found->second.override_text, *mistake);
     }
   }
 }
 
+void CaseReader::store_values() {
+  for (const Parameter& parameter : parameter_table()) store_given(parameter, 0, values_);
+  for (std::size_t k = 1; k < drop_count_; ++k) {
+    Case scratch;
+    for (const Parameter& parameter : parameter_table())
+      if (parameter.section() == "drop") store_given(parameter, k, scratch);
+    values_.more_drops.push_back(scratch.drop);
+  }
+}
+
 // " (drop.diameter: line 7; resolution.spacing: --set; drop.shape: default)"
-std::string CaseReader::origins(const Finding& finding) const {
+std::string CaseReader::origins(const Finding& finding, std::size_t drop) const {
   constexpr std::size_t few = 4;
   std::string text;
-  for (const std::string_view key : finding.keys) {
+  for (const std::string_view parameter : finding.keys) {
+    const std::string key = key_of_drop(parameter, drop);
     const auto found = given_.find(key);
     std::string origin = "default";
     if (found != given_.end()) {
@@ -156,10 +193,11 @@ std::string CaseReader::origins(const Finding& finding) const {
 }
 
 // At the line of the first parameter involved that the case gives.
-std::string CaseReader::located(const Finding& finding) const {
-  const std::string message = finding.message + origins(finding);
+std::string CaseReader::located(const Finding& finding, std::size_t drop) const {
+  const std::string which = drop > 0 ? fmt::format("drop {}: ", drop + 1) : "";
+  const std::string message = which + finding.message + origins(finding, drop);
   for (const std::string_view key : finding.keys) {
-    const auto found = given_.find(key);
+    const auto found = given_.find(key_of_drop(key, drop));
     if (found == given_.end()) continue;
     const Given& given = found->second;
     if (!given.override_text.empty()) return fmt::format("--set {}: {}", printable(given.override_text), message);
@@ -168,11 +206,24 @@ std::string CaseReader::located(const Finding& finding) const {
   return mistake_at(source_name_, 1, "", message);
 }
 
+bool concerns_drop(const Finding& finding) {
+  return std::any_of(finding.keys.begin(), finding.keys.end(),
+                     [](std::string_view key) { return key.starts_with("drop."); });
+}
+
+// Of the first drop all that is wrong, of every further one what has to do with it.
+void CaseReader::find_contradictions() {
+  for (std::size_t k = 0; k < drop_count_; ++k) {
+    const auto is_usable = [&](std::string_view key) { return !unusable_.contains(key_of_drop(key, k)); };
+    for (const Finding& finding : contradictions(k == 0 ? values_ : values_.with_drop(k), is_usable))
+      if (k == 0 || concerns_drop(finding)) mistakes_.push_back({no_line, located(finding, k)});
+  }
+}
+
 ParsedCase CaseReader::finish() {
   store_values();
   fill_derived_defaults(values_, source_name_);
-  const auto is_usable = [this](std::string_view key) { return !unusable_.contains(key); };
-  for (const Finding& finding : contradictions(values_, is_usable)) mistakes_.push_back({no_line, located(finding)});
+  find_contradictions();
   if (!mistakes_.empty()) {
     std::stable_sort(mistakes_.begin(), mistakes_.end(),
                      [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
@@ -181,7 +232,9 @@ ParsedCase CaseReader::finish() {
     throw CaseError(std::move(texts));
   }
   ParsedCase parsed{values_, {}};
-  for (const Finding& doubt : doubts(values_)) parsed.warnings.push_back(located(doubt));
+  for (std::size_t k = 0; k < drop_count_; ++k)
+    for (const Finding& doubt : doubts(values_.with_drop(k)))
+      if (k == 0 || concerns_drop(doubt)) parsed.warnings.push_back(located(doubt, k));
   return parsed;
 }
 

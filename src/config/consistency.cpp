@@ -9,6 +9,7 @@
 #include "config/check.hpp"
 #include "config/derived_defaults.hpp"
 #include "config/key_suggestion.hpp"
+#include "config/several_drops.hpp"
 #include "config/utf8.hpp"
 
 namespace sphdrop {
@@ -26,13 +27,16 @@ double columns_along(const Case& values) {
   return values.solid.length / values.resolution.spacing;
 }
 
+double drop_area(const Case::Drop& drop) {
+  if (drop.shape == DropShape::none) return 0;
+  const double square = drop.diameter * drop.diameter;
+  return drop.shape == DropShape::square ? square : square * std::numbers::pi / 4;
+}
+
 double particle_count(const Case& values) {
   const double d = values.resolution.spacing;
-  double area = 0;
-  if (has_drop(values)) {
-    const double square = values.drop.diameter * values.drop.diameter;
-    area += values.drop.shape == DropShape::round ? square * std::numbers::pi / 4 : square;
-  }
+  double area = drop_area(values.drop);
+  for (const Case::Drop& drop : values.more_drops) area += drop_area(drop);
   if (has_beam(values)) {
     area += (values.solid.length + 2 * values.solid.clamp_length) * values.solid.thickness;
     area += 4 * values.solid.clamp_length * static_cast<double>(values.solid.clamp_layers) * d;
@@ -45,6 +49,19 @@ Verdict nothing_to_simulate(const Case& values) {
   if (has_drop(values) || has_beam(values)) return {};
   return "nothing moves in this case: give a drop (drop.shape = \"round\" or \"square\") or a beam (solid.kind = "
          "\"cantilever\" or \"fixed_fixed_beam\")";
+}
+
+Verdict several_drops_not_liquid(const Case& values) {
+  if (values.more_drops.empty()) return {};
+  for (std::size_t k = 0; k < values.drop_count(); ++k) {
+    const Case::Drop drop = values.with_drop(k).drop;
+    if (!drop.is_liquid())
+      return fmt::format("several drops must all be liquid, and drop {} is {}; a rigid one must be the only one", k + 1,
+                         drop.is_rigid() ? "rigid" : "none");
+    if (drop.relaxation_time > 0)
+      return fmt::format("drop.relaxation_time of drop {} must be 0 where there are several drops", k + 1);
+  }
+  return {};
 }
 
 Verdict oscillation_of_another_shape(const Case& values) {
@@ -293,6 +310,7 @@ Verdict name_not_a_file_name(const Case& values) {
 const std::vector<Check>& contradiction_checks() {
   static const std::vector<Check> checks = {
       {{"drop.shape", "solid.kind"}, nothing_to_simulate},
+      {{"drop.material", "drop.shape", "drop.relaxation_time"}, several_drops_not_liquid},
       {{"drop.oscillation_velocity", "drop.shape"}, oscillation_of_another_shape},
       {{"drop.velocity", "drop.shape"}, velocity_without_drop},
       {{"drop.material", "drop.shape"}, rigid_without_drop},

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "config/several_drops.hpp"
+
 namespace sphdrop {
 namespace {
 
@@ -30,6 +32,8 @@ double default_centre(const Case& values) {
 // Of the drop's particle farthest from its centre.
 double largest_radius(const Case& values) {
   const double half_width = values.drop.diameter / 2;
+  if (values.drop.shape == DropShape::ellipse)
+    return half_width * std::sqrt(std::max(values.drop.aspect_ratio, 1 / values.drop.aspect_ratio));
   return values.drop.shape == DropShape::square ? std::numbers::sqrt2 * half_width : half_width;
 }
 
@@ -43,13 +47,17 @@ double speed_by_gravity(const Case& values) {
 
 // No particle gets here in a sound run: twice what free flight at the expected speed covers, plus the largest body. A
 // beam by itself does not fly: twice its length is as good as any distance.
-double default_domain_margin(const Case& values) {
-  double body = values.resolution.spacing;
-  if (has_drop(values)) body = std::max(body, values.drop.diameter);
-  if (values.solid.kind != SolidKind::none) body = std::max(body, values.solid.length);
-  const double flight = 2 * expected_speed(values) * values.time.end;
-  const bool is_held = has_beam(values) && !has_drop(values);
-  return (is_held ? std::min(flight, 2 * values.solid.length) : flight) + body;
+double default_domain_margin(const Case& all) {
+  return largest_over_drops(all, [](const Case& values) {
+    double body = values.resolution.spacing;
+    if (has_drop(values))
+      body =
+          std::max(body, values.drop.shape == DropShape::ellipse ? 2 * largest_radius(values) : values.drop.diameter);
+    if (values.solid.kind != SolidKind::none) body = std::max(body, values.solid.length);
+    const double flight = 2 * expected_speed(values) * values.time.end;
+    const bool is_held = has_beam(values) && !has_drop(values);
+    return (is_held ? std::min(flight, 2 * values.solid.length) : flight) + body;
+  });
 }
 
 // The largest that stay stable, with something to spare: cells stand 0.5 by their own c_s, a liquid 0.3 by its c_f.
@@ -63,6 +71,14 @@ void fill(double& value, double automatic) {
   if (std::isnan(value)) value = automatic;
 }
 
+// Of the drop of `one`, which may be the case itself.
+void fill_drop(Case& one, const Case& values) {
+  const double d = values.resolution.spacing;
+  fill(one.drop.density, values.fluid.density);
+  fill(one.drop.gap, std::max(0.0, values.contact.distance_ratio - 1) * d + 0.1 * d);
+  fill(one.drop.centre_x, default_centre(one));
+}
+
 }  // namespace
 
 bool has_drop(const Case& values) {
@@ -73,18 +89,20 @@ bool has_beam(const Case& values) {
   return values.solid.kind == SolidKind::cantilever || values.solid.kind == SolidKind::fixed_fixed_beam;
 }
 
-double expected_speed(const Case& values) {
-  double fastest = 0;
-  if (has_drop(values)) {
-    fastest = speed(values.drop.velocity_x, values.drop.velocity_y) + std::abs(values.drop.oscillation_velocity);
-    if (values.drop.is_rigid()) fastest += std::abs(values.drop.initial_spin) * largest_radius(values);
-    if (values.drop.is_liquid() && values.surface_tension.form != SurfaceTensionForm::none) {
-      fastest = std::max(
-          fastest, std::sqrt(2 * values.surface_tension.coefficient / (values.fluid.density * values.drop.diameter)));
+double expected_speed(const Case& all) {
+  return largest_over_drops(all, [](const Case& values) {
+    double fastest = 0;
+    if (has_drop(values)) {
+      fastest = speed(values.drop.velocity_x, values.drop.velocity_y) + std::abs(values.drop.oscillation_velocity);
+      if (values.drop.is_rigid()) fastest += std::abs(values.drop.initial_spin) * largest_radius(values);
+      if (values.drop.is_liquid() && values.surface_tension.form != SurfaceTensionForm::none) {
+        fastest = std::max(
+            fastest, std::sqrt(2 * values.surface_tension.coefficient / (values.fluid.density * values.drop.diameter)));
+      }
     }
-  }
-  if (has_beam(values)) fastest = std::max(fastest, std::abs(values.solid.initial_tip_velocity));
-  return fastest + speed_by_gravity(values);
+    if (has_beam(values)) fastest = std::max(fastest, std::abs(values.solid.initial_tip_velocity));
+    return fastest + speed_by_gravity(values);
+  });
 }
 
 double largest_sound_speed(const Case& values) {
@@ -123,13 +141,17 @@ void fill_derived_defaults(Case& values, const std::string& source_name) {
   const bool springs_are_fixed = values.contact.stiffness_form == ContactStiffness::fixed;
   fill(values.contact.stiffness, springs_are_fixed ? 0.3 : 0.1);
   fill(values.contact.overlap_limit, springs_are_fixed ? 0.5 : 0.2);
-  fill(values.drop.density, values.fluid.density);
-  fill(values.drop.gap, std::max(0.0, values.contact.distance_ratio - 1) * d + 0.1 * d);
   if (std::isnan(values.solid.length) && !has_beam(values)) {
     values.solid.length = std::max(1.0, std::round(8 * values.drop.diameter / d)) * d;  // whole spacings
   }
   fill(values.solid.clamp_length, 2 * values.solid.thickness);
-  fill(values.drop.centre_x, default_centre(values));
+  fill_drop(values, values);
+  for (Case::Drop& drop : values.more_drops) {
+    Case one = values;
+    one.drop = drop;
+    fill_drop(one, values);
+    drop = one.drop;
+  }
   fill(values.safety.speed_limit, values.fluid.sound_speed);
   fill(values.safety.domain_margin, default_domain_margin(values));
 }

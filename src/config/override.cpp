@@ -48,6 +48,19 @@ std::string unknown_key(const std::string& key) {
   return unknown_key_message(key.substr(0, dot), key.substr(dot + 1));
 }
 
+// "drop[2].diameter" is drop.diameter of the second drop; what is not quite so remains, as an unknown key.
+void take_drop_number(Override& parsed) {
+  constexpr std::string_view begin = "drop[";
+  const std::size_t end = parsed.key.find("].");
+  if (!parsed.key.starts_with(begin) || end == std::string::npos) return;
+  const std::string digits = parsed.key.substr(begin.size(), end - begin.size());
+  const bool is_number =
+      !digits.empty() && digits.size() < 7 && digits.find_first_not_of("0123456789") == std::string::npos;
+  if (!is_number || std::stoi(digits) < 1) return;
+  parsed.drop = static_cast<std::size_t>(std::stoi(digits)) - 1;
+  parsed.key = "drop" + parsed.key.substr(end + 1);
+}
+
 }  // namespace
 
 Override parse_override(const std::string& text) {
@@ -58,6 +71,7 @@ Override parse_override(const std::string& text) {
     return parsed;
   }
   parsed.key = trimmed(text.substr(0, equals));
+  take_drop_number(parsed);
   const std::string value = trimmed(text.substr(equals + 1));
   const Parameter* parameter = find_parameter(parsed.key);
   if (parameter == nullptr) {

@@ -1,6 +1,7 @@
 #pragma once
 // "key=value" from the command line.
 
+#include <cstddef>
 #include <string>
 
 #include "config/toml_source.hpp"
@@ -8,7 +9,8 @@
 namespace sphdrop {
 
 struct Override {
-  std::string key;
+  std::string key;       ///< "drop.diameter" for "drop[2].diameter" too
+  std::size_t drop = 0;  ///< which drop: 0, 1, ...
   TomlNode value;
   std::string mistake;  ///< "" if the key is known and the value readable; its type and range are not checked here
 };

@@ -46,7 +46,7 @@ constexpr Range either_sign(double bound) {
 
 // The words of each enumeration, in the order of its enumerators (config/case.hpp).
 constexpr std::string_view mode_words[] = {"paper", "modern"};
-constexpr std::string_view shape_words[] = {"none", "round", "square"};
+constexpr std::string_view shape_words[] = {"none", "round", "square", "ellipse"};
 constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
 constexpr std::string_view material_words[] = {"liquid", "rigid"};
 constexpr std::string_view solid_words[] = {"none", "cantilever", "fixed_fixed_beam", "rigid_wall"};
@@ -161,6 +161,8 @@ constexpr Parameter table[] = {
      "a rigid drop's density"},
     {"drop.diameter", "D0", "m", real<&C::drop, &C::Drop::diameter>(1e-3, positive(largest_length)),
      "diameter of a round drop, side of a square one"},
+    {"drop.aspect_ratio", "", "-", real<&C::drop, &C::Drop::aspect_ratio>(1.5, {0.1, true, 10, true}),
+     "an ellipse's width over its height; its area is that of a circle of the diameter"},
     {"drop.velocity", "U0", "m/s",
      vector<&C::drop, &C::Drop::velocity_x, &C::Drop::velocity_y>({0, 0}, either_sign(largest_speed)),
      "the drop's velocity at the start; downwards is negative y"},
@@ -171,6 +173,10 @@ constexpr Parameter table[] = {
      real<&C::drop, &C::Drop::centre_x>(
          Automatic{"cantilever: length - diameter/2; fixed_fixed_beam: mid-span; else 0"}, either_sign(largest_length)),
      "x of the drop's centre; 0 is the left clamp's edge, or the middle of a rigid wall"},
+    {"drop.centre_y", "", "m",
+     RealParameter{[](C& c) -> double& { return c.drop.centre_y.value; },
+                   Automatic{"by the gap above the solid's surface; without a solid 0"}, either_sign(largest_length)},
+     "y of the drop's centre; 0 is a beam's underside, or a rigid wall's surface"},
     {"drop.jitter", "", "d_ini", real<&C::drop, &C::Drop::jitter>(0.01, {0, true, 0.3, true}),
      "largest random displacement of a lattice start, in spacings; a rigid drop has none"},
     {"drop.seed", "", "-", integer<&C::drop, &C::Drop::seed>(1, 0, std::numeric_limits<std::int64_t>::max()),

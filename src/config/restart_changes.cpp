@@ -1,7 +1,10 @@
 #include "config/restart_changes.hpp"
 
+#include <algorithm>
+
 #include "config/parameter_table.hpp"
 #include "config/parameter_text.hpp"
+#include "config/several_drops.hpp"
 
 namespace sphdrop {
 
@@ -14,12 +17,18 @@ bool may_change_on_restart(std::string_view key) {
 
 std::vector<ParameterChange> parameter_changes(const Case& before, const Case& after) {
   std::vector<ParameterChange> changes;
-  for (const Parameter& parameter : parameter_table()) {
-    if (parameter.key == "output.directory") continue;
-    std::string old_value = value_text(parameter, before), new_value = value_text(parameter, after);
+  const auto compare = [&](const Parameter& parameter, std::size_t drop, const Case& one, const Case& other) {
+    std::string old_value = value_text(parameter, one), new_value = value_text(parameter, other);
     if (old_value != new_value)
-      changes.push_back({std::string(parameter.key), std::move(old_value), std::move(new_value)});
-  }
+      changes.push_back({key_of_drop(parameter.key, drop), std::move(old_value), std::move(new_value)});
+  };
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.key != "output.directory") compare(parameter, 0, before, after);
+  if (before.more_drops.size() != after.more_drops.size())
+    changes.push_back({"drop", std::to_string(before.drop_count()), std::to_string(after.drop_count())});
+  for (std::size_t k = 1; k < std::min(before.drop_count(), after.drop_count()); ++k)
+    for (const Parameter& parameter : parameter_table())
+      if (parameter.section() == "drop") compare(parameter, k, before.with_drop(k), after.with_drop(k));
   return changes;
 }
 

@@ -46,6 +46,23 @@ DropParticles round_drop_of_lattice(double radius, double spacing, double densit
   return drop;
 }
 
+DropParticles elliptic_drop(double half_width, double half_height, double spacing, double density) {
+  DropParticles drop;
+  const int half_columns = static_cast<int>(half_width / spacing) + 1;
+  const int half_rows = static_cast<int>(half_height / spacing) + 1;
+  for (int column = -half_columns; column < half_columns; ++column) {
+    for (int row = -half_rows; row < half_rows; ++row) {
+      const Vector position{(column + 0.5) * spacing, (row + 0.5) * spacing};
+      const Vector scaled{position.x / half_width, position.y / half_height};
+      if (squared_length(scaled) <= 1.0) drop.positions.push_back(position);
+    }
+  }
+  if (drop.positions.empty()) drop.positions.push_back({});
+  const double total = density * std::numbers::pi * half_width * half_height;
+  drop.masses.assign(drop.positions.size(), total / static_cast<double>(drop.positions.size()));
+  return drop;
+}
+
 DropParticles square_drop(double side, double spacing, double density) {
   DropParticles drop;
   const int count = std::max(1, static_cast<int>(std::floor(side / spacing + 0.5)));

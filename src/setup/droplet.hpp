@@ -23,6 +23,9 @@ DropParticles round_drop_of_rings(double radius, double spacing, double density)
 /// add up to rho pi R^2; column by column.
 DropParticles round_drop_of_lattice(double radius, double spacing, double density);
 
+/// An elliptic drop of the semi-axes `half_width` and `half_height` (m), cut out of the lattice likewise.
+DropParticles elliptic_drop(double half_width, double half_height, double spacing, double density);
+
 /// A square drop of `side` (m): n x n particles, n = round(side/d), at the centres of n x n cells; column by column.
 DropParticles square_drop(double side, double spacing, double density);
 

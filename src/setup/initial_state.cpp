@@ -12,6 +12,7 @@
 #include "setup/beam.hpp"
 #include "setup/droplet.hpp"
 #include "setup/setup_error.hpp"
+#include "sph/cell_grid.hpp"
 
 namespace sphdrop {
 namespace {
@@ -25,7 +26,10 @@ void refuse_too_many_particles(const Case& input) {
   const double length = input.solid.length / d;
   const double thickness = input.solid.thickness / d;
   double count = 0.0;
-  if (input.drop.shape != DropShape::none) count += (input.drop.diameter / d) * (input.drop.diameter / d);
+  for (std::size_t k = 0; k < input.drop_count(); ++k) {
+    const Case::Drop drop = input.with_drop(k).drop;
+    if (drop.shape != DropShape::none) count += (drop.diameter / d) * (drop.diameter / d);
+  }
   if (kind == SolidKind::rigid_wall) count += length;
   if (kind == SolidKind::cantilever || kind == SolidKind::fixed_fixed_beam)
     count += (length + 2.0 * input.solid.clamp_length / d) *
@@ -57,8 +61,15 @@ DropParticles build_drop(const Case& input) {
   const bool is_round = input.drop.shape == DropShape::round;
   if (is_round && input.drop.arrangement == DropArrangement::rings)
     return round_drop_of_rings(0.5 * input.drop.diameter, d, density);
-  DropParticles drop = is_round ? round_drop_of_lattice(0.5 * input.drop.diameter, d, density)
-                                : square_drop(input.drop.diameter, d, density);
+  DropParticles drop;
+  if (is_round) {
+    drop = round_drop_of_lattice(0.5 * input.drop.diameter, d, density);
+  } else if (input.drop.shape == DropShape::ellipse) {
+    const double stretch = std::sqrt(input.drop.aspect_ratio), radius = 0.5 * input.drop.diameter;
+    drop = elliptic_drop(radius * stretch, radius / stretch, d, density);
+  } else {
+    drop = square_drop(input.drop.diameter, d, density);
+  }
   // Jitter breaks the symmetric clumps of a liquid; a rigid drop has none, and keeps an even surface.
   if (input.drop.jitter != 0.0 && !input.drop.is_rigid())
     jitter_positions(drop.positions, input.drop.jitter * d, input.drop.seed);
@@ -82,6 +93,7 @@ double drop_centre_x(const Case& input) {
 /// Rings end at R - d'/2, a jittered lattice somewhere near R: counted from the lowest particle, the first contact
 /// comes at the same time whatever the arrangement.
 double drop_centre_y(const Case& input, const DropParticles& drop, const InitialSolid& solid) {
+  if (!input.drop.centre_y.is_open()) return input.drop.centre_y.value;
   if (input.solid.kind == SolidKind::none) return 0.0;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vector& position : drop.positions) lowest = std::min(lowest, position.y);
@@ -104,6 +116,13 @@ InitialFluid place_drop(const Case& input, const DropParticles& drop, Vector cen
   return fluid;
 }
 
+void append(const InitialFluid& drop, InitialFluid& all) {
+  if (all.positions.empty()) all.centre = drop.centre;
+  all.positions.insert(all.positions.end(), drop.positions.begin(), drop.positions.end());
+  all.velocities.insert(all.velocities.end(), drop.velocities.begin(), drop.velocities.end());
+  all.masses.insert(all.masses.end(), drop.masses.begin(), drop.masses.end());
+}
+
 struct Coordinates {
   std::vector<double> x, y;
 
@@ -114,6 +133,28 @@ struct Coordinates {
     }
   }
 };
+
+/// `ends`: of the drops' particles, in the order of the drops. Nearer than most of a spacing, particles would be flung
+/// apart by the pressure between them.
+void refuse_overlapping_drops(const Case& input, const std::vector<Vector>& positions,
+                              const std::vector<std::size_t>& ends) {
+  if (ends.size() < 2) return;
+  const double nearest_allowed = 0.7 * input.resolution.spacing;
+  const Coordinates all(positions);
+  const CellGrid grid(all.x, all.y, nearest_allowed);
+  const auto drop_of = [&](std::size_t particle) {
+    return std::upper_bound(ends.begin(), ends.end(), particle) - ends.begin() + 1;
+  };
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    grid.for_each_near(positions[i], [&](std::int32_t near) {
+      const auto j = static_cast<std::size_t>(near);
+      if (drop_of(i) >= drop_of(j) || length(positions[i] - positions[j]) >= nearest_allowed) return;
+      throw SetupError(fmt::format(
+          "the drops {} and {} overlap at the start, at x = {:.6g} m, y = {:.6g} m; move one of them (drop.centre_x, "
+          "drop.centre_y), particles of different drops must be {:g} m apart",
+          drop_of(i), drop_of(j), positions[i].x, positions[i].y, nearest_allowed));
+    });
+}
 
 /// Measures with the contact algorithm itself, so that what passes here is at rest there.
 void refuse_overlap(const Case& input, const InitialState& state) {
@@ -157,14 +198,20 @@ InitialState build_initial_state(const Case& input) {
   refuse_too_many_particles(input);
   InitialState state;
   state.solid = build_solid(input);
-  const DropParticles drop = build_drop(input);
-  if (drop.positions.empty()) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    state.drop_centre = {nan, nan};
-    return state;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  state.drop_centre = {nan, nan};
+  std::vector<std::size_t> ends;
+  for (std::size_t k = 0; k < input.drop_count(); ++k) {
+    const Case one = input.with_drop(k);
+    const DropParticles drop = build_drop(one);
+    if (drop.positions.empty()) continue;
+    const Vector centre{drop_centre_x(one), drop_centre_y(one, drop, state.solid)};
+    if (k == 0) state.drop_centre = centre;
+    append(place_drop(one, drop, centre), state.fluid);
+    ends.push_back(state.fluid.positions.size());
   }
-  state.drop_centre = {drop_centre_x(input), drop_centre_y(input, drop, state.solid)};
-  state.fluid = place_drop(input, drop, state.drop_centre);
+  if (state.fluid.positions.empty()) return state;
+  refuse_overlapping_drops(input, state.fluid.positions, ends);
   refuse_overlap(input, state);
   return state;
 }

@@ -23,7 +23,7 @@ ALLOWED: dict[str, set[str]] = {
     "rigid_body": {"particles"},
     "time_integration": {"particles", "sph"},
     "diagnostics": {"particles"},
-    "setup": {"particles", "contact", "rigid_body", "config/case.hpp"},
+    "setup": {"particles", "sph", "contact", "rigid_body", "config/case.hpp"},
 }
 ALLOWED["simulation"] = set(ALLOWED) - {"config"} | {"config/case.hpp"}
 ALLOWED["run"] = set(ALLOWED) | {"config"}

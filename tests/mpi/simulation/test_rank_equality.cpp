@@ -156,6 +156,25 @@ shape = "square"
 diameter = 0.6e-3
 )";
 
+// They meet within the steps run.
+constexpr const char* two_drops = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+sound_cfl = 0.25
+[[drop]]
+diameter = 0.5e-3
+velocity = [4, 0]
+[[drop]]
+shape = "ellipse"
+aspect_ratio = 2
+diameter = 0.5e-3
+velocity = [-4, 0]
+centre_x = 0.66e-3
+centre_y = 0.1e-3
+)";
+
 constexpr const char* free_vibration = R"(
 [resolution]
 spacing = 0.0625e-3
@@ -395,6 +414,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, RankEquality,
                                          EqualityCase{"rigid_square", rigid_square, 400, 0xbf61398f3fbc045d},
                                          EqualityCase{"cells", cells, 400, 0xc4980657160166fc},
                                          EqualityCase{"damped_cells", damped_cells, 300, 0x6796322f3a8746e5},
+                                         EqualityCase{"two_drops", two_drops, 200, 0},
                                          EqualityCase{"modern_wall", modern_wall, 300, 0x4ea75a21caf63b8f},
                                          EqualityCase{"relaxed_drop", relaxed_drop, 200, 0xca191ad84f366b9b},
                                          EqualityCase{"wendland_beam", wendland_beam, 200, 0x17f379e48b7104c4}),

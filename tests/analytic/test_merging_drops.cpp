@@ -1,0 +1,50 @@
+// Two drops that meet in flight: what the whole has, it keeps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "tests/support/watched_run.hpp"
+
+namespace sphdrop {
+namespace {
+
+// Off-centre, so that there is angular momentum as well; of different sizes and speeds.
+constexpr const char* pair = R"(
+[resolution]
+spacing = 0.04e-3
+[time]
+end = 1.5e-3
+sound_cfl = 0.25
+[fluid]
+sound_speed = 30
+artificial_viscosity_alpha = 0.5
+[[drop]]
+diameter = 0.6e-3
+velocity = [0.5, 0]
+centre_x = 0
+[[drop]]
+diameter = 0.4e-3
+velocity = [-0.5, 0]
+centre_x = 0.56e-3
+centre_y = 0.1e-3
+)";
+
+TEST(MergingDrops, KeepMassAndMomentum) {
+  const test::WatchedRun run = test::watch(pair, 1e-4);
+  const Observation &first = run.first(), &last = run.last();
+  EXPECT_EQ(first.curve_count, 2);
+  EXPECT_EQ(last.curve_count, 1) << "the drops have not merged";
+  const double mass = 1000 * std::acos(-1.0) / 4 * (0.36e-6 + 0.16e-6), scale = mass * 0.5;
+  EXPECT_NEAR(first.momentum_fluid_x, 1000 * std::acos(-1.0) / 4 * (0.36e-6 - 0.16e-6) * 0.5, 1e-12 * scale);
+  EXPECT_NEAR(last.momentum_fluid_x, first.momentum_fluid_x, 1e-12 * scale);
+  EXPECT_NEAR(last.momentum_fluid_y, first.momentum_fluid_y, 1e-12 * scale);
+  // The shared-out tension has a small torque of its own.
+  EXPECT_NEAR(last.angular_momentum_fluid, first.angular_momentum_fluid, 0.02 * scale * 0.5e-3);
+  // The common surface is shorter than the two were.
+  EXPECT_LT(last.curve_length, first.curve_length);
+  EXPECT_LT(std::abs(last.unaccounted), 0.02 * first.kinetic_fluid);
+}
+
+}  // namespace
+}  // namespace sphdrop
