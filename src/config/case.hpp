@@ -11,6 +11,7 @@ namespace sphdrop {
 enum class Mode { paper, modern };
 enum class DropShape { none, round, square, ellipse };
 enum class DropArrangement { rings, lattice };
+enum class DropPlacement { above_solid, centre };
 enum class DropMaterial { liquid, rigid };
 enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall };
 enum class SolidFormulation { automatic, hypoelastic, cells };
@@ -23,13 +24,6 @@ enum class KernelShape { cubic_spline, wendland_c2 };
 enum class ViscosityForm { artificial, physical };
 enum class DensityTreatment { none, moving_least_squares, density_diffusion };
 enum class Switch { off, on };
-
-/// A number that a valid case may leave open: NaN, which here equals itself.
-struct OpenNumber {
-  double value = 0;
-  bool is_open() const { return value != value; }
-  bool operator==(const OpenNumber& other) const { return value == other.value || (is_open() && other.is_open()); }
-};
 
 /// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
 /// the table in config/parameter_table.cpp and nowhere else.
@@ -82,8 +76,9 @@ struct Case {
     double velocity_x = 0, velocity_y = 0;  ///< m/s
     double gap = 0;                         ///< at the start, between the surfaces of drop and solid, m
     double centre_x = 0;                    ///< m; x = 0 at the left clamp's edge, or at the middle of a rigid wall
-    OpenNumber centre_y;                    ///< m; open: by the gap above the solid's surface, or 0 without a solid
-    double jitter = 0;                      ///< of a lattice start, in units of d
+    DropPlacement placement = DropPlacement::above_solid;
+    double centre_y = 0;  ///< m; of a drop that is not placed above a solid
+    double jitter = 0;    ///< of a lattice start, in units of d
     std::int64_t seed = 0;
     double oscillation_velocity = 0;  ///< V0, m/s
     double oscillation_radius = 0;    ///< r0, m

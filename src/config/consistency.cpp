@@ -64,6 +64,15 @@ Verdict several_drops_not_liquid(const Case& values) {
   return {};
 }
 
+Verdict height_of_a_drop_above_the_solid(const Case& values) {
+  if (values.drop.centre_y == 0 || values.solid.kind == SolidKind::none ||
+      values.drop.placement == DropPlacement::centre)
+    return {};
+  return "drop.centre_y needs drop.placement = \"centre\" where there is a solid: otherwise drop.gap says how high "
+         "above "
+         "it the drop is";
+}
+
 Verdict oscillation_of_another_shape(const Case& values) {
   if (values.drop.oscillation_velocity == 0 || values.drop.shape == DropShape::round) return {};
   return "drop.oscillation_velocity needs drop.shape = \"round\": the oscillating field is that of a round drop; set "
@@ -311,6 +320,7 @@ const std::vector<Check>& contradiction_checks() {
   static const std::vector<Check> checks = {
       {{"drop.shape", "solid.kind"}, nothing_to_simulate},
       {{"drop.material", "drop.shape", "drop.relaxation_time"}, several_drops_not_liquid},
+      {{"drop.centre_y", "drop.placement", "solid.kind"}, height_of_a_drop_above_the_solid},
       {{"drop.oscillation_velocity", "drop.shape"}, oscillation_of_another_shape},
       {{"drop.velocity", "drop.shape"}, velocity_without_drop},
       {{"drop.material", "drop.shape"}, rigid_without_drop},

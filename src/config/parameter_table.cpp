@@ -48,6 +48,7 @@ constexpr Range either_sign(double bound) {
 constexpr std::string_view mode_words[] = {"paper", "modern"};
 constexpr std::string_view shape_words[] = {"none", "round", "square", "ellipse"};
 constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
+constexpr std::string_view placement_words[] = {"above_solid", "centre"};
 constexpr std::string_view material_words[] = {"liquid", "rigid"};
 constexpr std::string_view solid_words[] = {"none", "cantilever", "fixed_fixed_beam", "rigid_wall"};
 constexpr std::string_view formulation_words[] = {"auto", "hypoelastic", "cells"};
@@ -160,7 +161,7 @@ constexpr Parameter table[] = {
      real<&C::drop, &C::Drop::density>(Automatic{"fluid.density"}, positive(largest_density)),
      "a rigid drop's density"},
     {"drop.diameter", "D0", "m", real<&C::drop, &C::Drop::diameter>(1e-3, positive(largest_length)),
-     "diameter of a round drop, side of a square one"},
+     "diameter of a round drop, of the circle of the same area of an ellipse, side of a square"},
     {"drop.aspect_ratio", "", "-", real<&C::drop, &C::Drop::aspect_ratio>(1.5, {0.1, true, 10, true}),
      "an ellipse's width over its height; its area is that of a circle of the diameter"},
     {"drop.velocity", "U0", "m/s",
@@ -173,10 +174,11 @@ constexpr Parameter table[] = {
      real<&C::drop, &C::Drop::centre_x>(
          Automatic{"cantilever: length - diameter/2; fixed_fixed_beam: mid-span; else 0"}, either_sign(largest_length)),
      "x of the drop's centre; 0 is the left clamp's edge, or the middle of a rigid wall"},
-    {"drop.centre_y", "", "m",
-     RealParameter{[](C& c) -> double& { return c.drop.centre_y.value; },
-                   Automatic{"by the gap above the solid's surface; without a solid 0"}, either_sign(largest_length)},
-     "y of the drop's centre; 0 is a beam's underside, or a rigid wall's surface"},
+    {"drop.placement", "", "-", word<&C::drop, &C::Drop::placement>(placement_words, DropPlacement::above_solid),
+     "above_solid = the gap above the solid's surface, centre = the centre at centre_y"},
+    {"drop.centre_y", "", "m", real<&C::drop, &C::Drop::centre_y>(0.0, either_sign(largest_length)),
+     "y of the drop's centre without a solid or where placement says so; 0 is a beam's underside, or a rigid wall's "
+     "surface"},
     {"drop.jitter", "", "d_ini", real<&C::drop, &C::Drop::jitter>(0.01, {0, true, 0.3, true}),
      "largest random displacement of a lattice start, in spacings; a rigid drop has none"},
     {"drop.seed", "", "-", integer<&C::drop, &C::Drop::seed>(1, 0, std::numeric_limits<std::int64_t>::max()),

@@ -93,8 +93,7 @@ double drop_centre_x(const Case& input) {
 /// Rings end at R - d'/2, a jittered lattice somewhere near R: counted from the lowest particle, the first contact
 /// comes at the same time whatever the arrangement.
 double drop_centre_y(const Case& input, const DropParticles& drop, const InitialSolid& solid) {
-  if (!input.drop.centre_y.is_open()) return input.drop.centre_y.value;
-  if (input.solid.kind == SolidKind::none) return 0.0;
+  if (input.solid.kind == SolidKind::none || input.drop.placement == DropPlacement::centre) return input.drop.centre_y;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vector& position : drop.positions) lowest = std::min(lowest, position.y);
   return solid.top + input.drop.gap + 0.5 * input.resolution.spacing - lowest;

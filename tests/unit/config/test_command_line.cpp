@@ -73,8 +73,8 @@ TEST(CommandLineTest, AnswersQuestionsWithoutACase) {
   const CommandLine help = parse({"--help"});
   EXPECT_EQ(help.action, Action::finish);
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* option : {"--help", "--version", "--list-parameters", "--check", "--print-case", "--set", "--output", "--until",
-                             "--quiet", "--restart", "--fresh", "--max-walltime", "case.cfg"}) {
+  for (const char* option : {"--help", "--version", "--list-parameters", "--check", "--print-case", "--set", "--output",
+                             "--until", "--quiet", "--restart", "--fresh", "--max-walltime", "case.cfg"}) {
     EXPECT_NE(help.text.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(parse({"-h"}).text, help.text);

@@ -198,7 +198,8 @@ TEST(ParameterTable, CoversEveryMemberOfCase) {
                          sizeof(Case::Solid) + sizeof(Case::Contact) + sizeof(Case::SurfaceTension) +
                          sizeof(Case::Gravity) + sizeof(Case::Output) + sizeof(Case::Checkpoint) +
                          sizeof(Case::Parallel) + sizeof(Case::Safety);
-  EXPECT_EQ(sizeof(Case), sections + sizeof(std::string) + 8);  // name, mode and its padding
+  // Beside them the name, the mode with its padding, and further drops.
+  EXPECT_EQ(sizeof(Case), sections + sizeof(std::string) + 8 + sizeof(std::vector<Case::Drop>));
 }
 
 TEST(Range, HeedsItsEndsAndRefusesWhatIsNoNumber) {
@@ -237,7 +238,7 @@ TEST(Listing, ShowsDefaultsInTheirOwnTerms) {
   EXPECT_TRUE(default_text(*find_parameter("drop.gap")).starts_with("\"auto\" ("));
   EXPECT_EQ(allowed_text(*find_parameter("solid.poisson_ratio")), "> -1 and < 0.5");
   EXPECT_EQ(allowed_text(*find_parameter("surface_tension.polynomial_points")), "3 or 5");
-  EXPECT_EQ(allowed_text(*find_parameter("drop.shape")), "none, round or square");
+  EXPECT_EQ(allowed_text(*find_parameter("drop.shape")), "none, round, square or ellipse");
 }
 
 }  // namespace

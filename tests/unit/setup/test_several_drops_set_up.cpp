@@ -39,8 +39,8 @@ TEST(Ellipse, KeepsTheCirclesArea) {
     width = std::max(width, 2 * std::abs(p.x));
     height = std::max(height, 2 * std::abs(p.y));
   }
-  EXPECT_NEAR(width, 1e-3 * std::sqrt(2.0), 2.5e-5);
-  EXPECT_NEAR(height, 1e-3 / std::sqrt(2.0), 2.5e-5);
+  EXPECT_NEAR(width, 1e-3 * std::sqrt(2.0), 5e-5);
+  EXPECT_NEAR(height, 1e-3 / std::sqrt(2.0), 5e-5);
   EXPECT_NEAR(std::accumulate(state.fluid.masses.begin(), state.fluid.masses.end(), 0.0),
               1000 * std::numbers::pi * 0.25e-6, 1e-12);
 }
@@ -81,8 +81,8 @@ TEST(SeveralDrops, MustNotOverlap) {
 
 TEST(DropAtAHeight, IsThereAndNotInTheSolid) {
   const std::string wall = "[solid]\nkind = \"rigid_wall\"\n";
-  EXPECT_EQ(build("[drop]\ndiameter = 1e-3\ncentre_y = 2e-3\n", wall).drop_centre.y, 2e-3);
-  EXPECT_THROW(build("[drop]\ndiameter = 1e-3\ncentre_y = 0.3e-3\n", wall), SetupError);
+  EXPECT_EQ(build("[drop]\ndiameter = 1e-3\nplacement = \"centre\"\ncentre_y = 2e-3\n", wall).drop_centre.y, 2e-3);
+  EXPECT_THROW(build("[drop]\ndiameter = 1e-3\nplacement = \"centre\"\ncentre_y = 0.3e-3\n", wall), SetupError);
 }
 
 }  // namespace
