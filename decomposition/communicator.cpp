@@ -186,4 +186,34 @@ std::span<const double> PendingMaximum::finish() {
   return maxima_;
 }
 
+PendingSum::PendingSum(const Communicator& communicator) : handle_(communicator.handle()) {}
+
+PendingSum::~PendingSum() {
+  if (!under_way_ || mpi_is_finalized()) return;
+  if (std::uncaught_exceptions() == 0) {
+    MPI_Wait(&request_, MPI_STATUS_IGNORE);
+    return;
+  }
+  // As in PendingMaximum.
+  static std::list<std::vector<std::int64_t>> abandoned;
+  abandoned.push_back(std::move(values_));
+  abandoned.push_back(std::move(sums_));
+}
+
+void PendingSum::start(std::span<const std::int64_t> values) {
+  assert(!under_way_);
+  values_.assign(values.begin(), values.end());
+  sums_.resize(values.size());
+  MPI_Iallreduce(values_.data(), sums_.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM, handle_,
+                 &request_);
+  under_way_ = true;
+}
+
+std::span<const std::int64_t> PendingSum::finish() {
+  assert(under_way_);
+  MPI_Wait(&request_, MPI_STATUS_IGNORE);
+  under_way_ = false;
+  return sums_;
+}
+
 }  // namespace sphdrop

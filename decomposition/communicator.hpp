@@ -99,6 +99,28 @@ class PendingMaximum {
   std::vector<double> values_, maxima_;
 };
 
+/// An element-wise sum of integers over all ranks that is under way while the caller computes. One at a time
+/// (asserted). The communicator must outlive it.
+class PendingSum {
+ public:
+  explicit PendingSum(const Communicator& communicator);
+  ~PendingSum();
+  PendingSum(const PendingSum&) = delete;
+  PendingSum& operator=(const PendingSum&) = delete;
+
+  bool is_under_way() const { return under_way_; }
+  /// Collective. Posts the reduction of `values`, as many as on every other rank.
+  void start(std::span<const std::int64_t> values);
+  /// Waits for it; the sums, valid until the next start().
+  std::span<const std::int64_t> finish();
+
+ private:
+  MPI_Comm handle_;
+  MPI_Request request_ = MPI_REQUEST_NULL;
+  bool under_way_ = false;
+  std::vector<std::int64_t> values_, sums_;
+};
+
 template <class T>
 std::vector<T> Communicator::all_gather(std::span<const T> mine) const {
   static_assert(std::is_trivially_copyable_v<T>);

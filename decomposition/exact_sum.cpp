@@ -1,11 +1,7 @@
 #include "decomposition/exact_sum.hpp"
 
 #include <bit>
-#include <cassert>
-#include <exception>
 #include <limits>
-#include <list>
-#include <utility>
 #include <vector>
 
 namespace sphdrop {
@@ -59,57 +55,22 @@ void ExactSum::normalise() {
   carries_ = 0;
 }
 
-void ExactSum::write(std::span<ExactSum> sums, std::vector<std::int64_t>& words) {
-  words.clear();
-  words.reserve(sums.size() * (limb_count + 1));
+void ExactSum::reduce(std::span<ExactSum> sums, const Communicator& communicator) {
+  constexpr std::size_t words = limb_count + 1;
+  std::vector<std::int64_t> buffer;
+  buffer.reserve(sums.size() * words);
   for (ExactSum& sum : sums) {
     sum.normalise();  // limbs of 32 bits leave 31 for the ranks
-    words.insert(words.end(), sum.limbs_.begin(), sum.limbs_.end());
-    words.push_back(sum.not_finite_);
+    buffer.insert(buffer.end(), sum.limbs_.begin(), sum.limbs_.end());
+    buffer.push_back(sum.not_finite_);
   }
-}
-
-void ExactSum::read(std::span<const std::int64_t> words, std::span<ExactSum> sums) {
-  const std::int64_t* word = words.data();
+  communicator.sum_in_place(buffer);
+  const std::int64_t* word = buffer.data();
   for (ExactSum& sum : sums) {
     for (std::int64_t& limb : sum.limbs_) limb = *word++;
     sum.not_finite_ = *word++;
     sum.normalise();
   }
-}
-
-void ExactSum::reduce(std::span<ExactSum> sums, const Communicator& communicator) {
-  std::vector<std::int64_t> buffer;
-  write(sums, buffer);
-  communicator.sum_in_place(buffer);
-  read(buffer, sums);
-}
-
-PendingExactSums::~PendingExactSums() {
-  int is_finalized = 0;
-  MPI_Finalized(&is_finalized);
-  if (!is_under_way() || is_finalized != 0) return;
-  if (std::uncaught_exceptions() == 0) {
-    MPI_Wait(&request_, MPI_STATUS_IGNORE);
-    return;
-  }
-  // As in PendingMaximum: the other ranks may never get here, and MPI may still write.
-  static std::list<std::vector<std::int64_t>> abandoned;
-  abandoned.push_back(std::move(mine_));
-  abandoned.push_back(std::move(all_));
-}
-
-void PendingExactSums::start(std::span<ExactSum> sums) {
-  assert(!is_under_way());
-  ExactSum::write(sums, mine_);
-  all_.resize(mine_.size());
-  MPI_Iallreduce(mine_.data(), all_.data(), static_cast<int>(mine_.size()), MPI_INT64_T, MPI_SUM, handle_, &request_);
-}
-
-void PendingExactSums::finish(std::span<ExactSum> sums) {
-  assert(is_under_way());
-  MPI_Wait(&request_, MPI_STATUS_IGNORE);
-  ExactSum::read(all_, sums);
 }
 
 double ExactSum::value() const {

@@ -95,7 +95,7 @@ def effective_viscosity(run: Run) -> float:
     """In m^2/s: mu/rho of a physical viscosity; alpha c h/16 is what the artificial one on approaching pairs amounts to in
     two dimensions."""
     case = parameters(run)
-    if case["fluid"].get("viscosity_form", "artificial") == "physical":
+    if is_physical(run):
         return case["fluid"]["viscosity"] / case["fluid"]["density"]
     smoothing_length = case["resolution"]["smoothing_ratio"] * case["resolution"]["spacing"]
     return case["fluid"]["artificial_viscosity_alpha"] * case["fluid"]["sound_speed"] * smoothing_length / 16
@@ -132,9 +132,15 @@ def measure(results: Results) -> dict[str, float]:
     return found
 
 
+def is_physical(run: Run) -> bool:
+    """Whether the liquid has a viscosity of its own instead of the artificial one."""
+    return parameters(run)["fluid"].get("viscosity_form", "artificial") == "physical"
+
+
 def label(run: Run) -> str:
     case = parameters(run)
-    return f"{run.snapshots[0].particle_count} particles, $V_0$ = {case['drop']['oscillation_velocity']:g} m/s"
+    text = f"{run.snapshots[0].particle_count} particles, $V_0$ = {case['drop']['oscillation_velocity']:g} m/s"
+    return text + (f", $\\mu$ = {case['fluid']['viscosity']:g} Pa s" if is_physical(run) else "")
 
 
 def draw_shapes(run: Run) -> Figure:
@@ -167,9 +173,35 @@ def draw_quarter_centres(results: Results, speed: str) -> Figure | None:
     return figure
 
 
+def draw_viscous(results: Results) -> Figure | None:
+    """The swing with a physical viscosity over the exact theory's, which starts at the first extremum."""
+    runs = [run for run in results.values() if is_physical(run)]
+    if not runs:
+        return None
+    figure, grid = plt.subplots(len(runs), 1, figsize=(6.4, 1.6 * len(runs)), sharex=True, layout="constrained", squeeze=False)
+    for axes, run, colour in zip(grid[:, 0], runs, LINES):
+        times, values = run.history["time"], swing(run)
+        period, rate = viscous_swing(radius_of(run), effective_viscosity(run))
+        early = times < period / 2
+        peak = int(np.argmax(np.abs(values) * early))
+        since = times[peak:] - times[peak]
+        omega = 2 * math.pi / period
+        exact = values[peak] * np.exp(-rate * since) * (np.cos(omega * since) + rate / omega * np.sin(omega * since))
+        axes.plot(times * MILLI, values * 100, color=colour, lw=1.1, label=label(run))
+        axes.plot(times[peak:] * MILLI, exact * 100, color="#333a44", lw=0.8, dashes=(4, 2), label="exact theory")
+        axes.set_ylabel("elongation  (%)")
+        axes.margins(x=0.01)
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.97), ncols=2, borderaxespad=0)
+    grid[-1, 0].set_xlabel("time  (ms)")
+    return figure
+
+
 def draw_periods(results: Results) -> Figure | None:
+    runs = [run for run in results.values() if not is_physical(run)]
+    if not runs:
+        return None
     figure, axes = plt.subplots(figsize=(7.6, 3.2), layout="constrained")
-    for run, colour in zip(results.values(), LINES):
+    for run, colour in zip(runs, LINES):
         periods, amplitudes = periods_and_amplitudes(run)
         axes.plot(amplitudes, periods * MILLI, "o-", ms=3.5, lw=0.8, color=colour, label=label(run))
     radius = radius_of(run)
@@ -185,10 +217,12 @@ def draw_periods(results: Results) -> Figure | None:
 
 
 def draw_decay(results: Results) -> Figure | None:
+    runs = {name: run for name, run in results.items() if not is_physical(run)}
+    chosen = [run for name, run in runs.items() if "1264" in name or len(runs) <= 2]
+    if not chosen:
+        return None
     figure, axes = plt.subplots(figsize=(6.4, 3.0), layout="constrained")
-    for name, run in results.items():
-        if "1264" not in name and len(results) > 2:
-            continue
+    for run in chosen:
         values = swing(run)
         axes.plot(run.history["time"] * MILLI, values / np.abs(values).max(), lw=1.1, label=label(run))
         start = run.history["time"][int(np.argmax(np.abs(values)))]
@@ -214,6 +248,8 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
         made.append(("period.png", draw_periods(results), "Each period over its amplitude: it falls as the swing dies out.", ""))
         made.append(("decay.png", draw_decay(results),
                      "Decay; dashed: exact theory of a small swing with the viscosity alpha c h/16.", ""))
+        made.append(("viscous.png", draw_viscous(results),
+                     "A small swing with a physical viscosity; dashed: exact theory of the viscous drop.", ""))
         return save(made, folder)
 
 

@@ -132,6 +132,10 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
                             {directory, version_text(), build_info().git_commit, start, walltime_limit(command, start),
                              restart ? restart->checkpoint.path : std::filesystem::path()});
   restart.reset();
+  if (simulation.time() < 0 && !command.quiet)
+    say(communicator, stderr,
+        fmt::format("the drop comes to rest for {:.6g} ms before t = 0; until then nothing is written\n",
+                    -1e3 * simulation.time()));
   try {
     for (;;) {
       simulation.settle();

@@ -43,7 +43,7 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
 
   const std::int64_t fluid = simulation.fluid_total(), solid = simulation.solid_total();
   const double step = simulation.time_step();
-  const double steps = std::ceil(c.time.end / step);
+  const double steps = std::ceil((c.time.end + c.drop.relaxation_time) / step);
   // Ghosts, lists and the sweep's records included; the mean over ranks.
   const Distribution& distribution = simulation.distribution();
   const double mine = bytes_of(simulation.fluid()) + bytes_of(simulation.solid()) +
@@ -67,7 +67,9 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
                       c.time.step > 0     ? ""
                       : c.drop.is_rigid() ? " (Eq 40)"
                                           : " (Eqs 40-42)");
-  text += fmt::format("steps               {:.0f} for {:.6g} ms\n", steps, 1e3 * c.time.end);
+  text += fmt::format(
+      "steps               {:.0f} for {:.6g} ms{}\n", steps, 1e3 * c.time.end,
+      c.drop.relaxation_time > 0 ? fmt::format(" and {:.6g} ms of rest before", 1e3 * c.drop.relaxation_time) : "");
   text += fmt::format("memory              {:.3g} MB for particles and lists, all ranks\n", 1e-6 * bytes);
   text += fmt::format("expected wall time  {} on {} rank{} ({:.3g} us a step, measured over {})\n",
                       hours_minutes_seconds(steps * seconds), communicator.size(), communicator.size() == 1 ? "" : "s",
@@ -83,13 +85,17 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
     const double sigma = c.surface_tension.coefficient;
     if (speed > 0 && sigma > 0)
       text += fmt::format("Weber number        {:.4g}\n", weber_number(c.fluid.density, speed, c.drop.diameter, sigma));
-    if (speed > 0 && c.fluid.viscosity > 0)
-      text += fmt::format(
-          "Reynolds number     {:.4g} by fluid.viscosity; the artificial viscosity is about {:.3g} m2/s: {:.4g}\n",
-          reynolds_number(c.fluid.density, speed, c.drop.diameter, c.fluid.viscosity),
-          c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length / 16,
-          speed * c.drop.diameter * 16 /
-              (c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length));
+    const double length = c.drop.diameter, mu = c.fluid.viscosity;
+    if (speed > 0 && mu > 0) {
+      text += fmt::format("Reynolds number     {:.4g} by fluid.viscosity",
+                          reynolds_number(c.fluid.density, speed, length, mu));
+      const double artificial =
+          c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length / 16;
+      text += c.fluid.viscosity_form == ViscosityForm::physical
+                  ? "\n"
+                  : fmt::format("; the artificial viscosity is about {:.3g} m2/s: {:.4g}\n", artificial,
+                                speed * length / artificial);
+    }
   }
   if (c.drop.is_rigid()) {
     const RigidBody& body = simulation.rigid_body().body();

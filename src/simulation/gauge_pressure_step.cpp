@@ -1,5 +1,8 @@
 #include "simulation/gauge_pressure_step.hpp"
 
+#include <array>
+#include <bit>
+
 #include "diagnostics/number_reader.hpp"
 
 namespace sphdrop {
@@ -9,6 +12,8 @@ GaugePressureStep::GaugePressureStep(const Communicator& communicator, const Cas
     : is_enabled_(input.drop.is_liquid() && input.fluid.gauge_pressure == Switch::on),
       relaxation_time_(input.fluid.gauge_relaxation_time),
       inverse_squared_sound_speed_(1.0 / (input.fluid.sound_speed * input.fluid.sound_speed)),
+      pressure_scale_(input.fluid.density * input.fluid.sound_speed * input.fluid.sound_speed),
+      particle_count_(static_cast<double>(masses.size())),
       pending_(communicator) {
   for (const double mass : masses) rest_area_ += mass / input.fluid.density;
 }
@@ -21,28 +26,23 @@ void GaugePressureStep::relax(FluidParticles& fluid, double step) {
 }
 
 void GaugePressureStep::start(const FluidParticles& fluid, double area) {
-  sums_ = {};
-  fluid.for_each_owned([&](std::size_t row) {
-    const double p = fluid.pressure[row];
-    sums_[0].add(p);
-    sums_[1].add(p * p);
-  });
-  sums_[2].add(static_cast<double>(fluid.owned_count()));
-  sums_[3].add(area);
-  pending_.start(sums_);
+  PressureSums sums(pressure_scale_);
+  fluid.for_each_owned([&](std::size_t row) { sums.add(fluid.pressure[row]); });
+  // Of the area one rank's bits and the others' zeros add up to those bits.
+  const auto [first, low, high] = sums.words();
+  pending_.start(std::array{first, low, high, std::bit_cast<std::int64_t>(area)});
 }
 
 void GaugePressureStep::finish() {
   if (!pending_.is_under_way()) return;
-  pending_.finish(sums_);
-  area_ = sums_[3].value();
-  gauge_.target = gauge_target(sums_[0].value(), sums_[1].value(), sums_[2].value());
+  const std::span<const std::int64_t> words = pending_.finish();
+  gauge_.target = PressureSums(pressure_scale_).target(words, particle_count_);
+  area_ = std::bit_cast<double>(words[3]);
 }
 
 void GaugePressureStep::from_numbers(std::span<const double> numbers) {
   NumberReader reader(numbers, "gauge pressure");
   gauge_.pressure = reader.number();
-  area_ = sums_[3].value();
   gauge_.target = reader.number();
   area_ = reader.number();
   adjustment_ = reader.number();

@@ -1,12 +1,11 @@
 #pragma once
 // The gauge pressure of a distributed drop.
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "config/case.hpp"
-#include "decomposition/exact_sum.hpp"
+#include "decomposition/communicator.hpp"
 #include "fluid/gauge_pressure.hpp"
 #include "particles/fluid_particles.hpp"
 
@@ -48,8 +47,8 @@ class GaugePressureStep {
   double relaxation_time_, inverse_squared_sound_speed_;
   double rest_area_ = 0, area_ = 0, adjustment_ = 0;
   GaugePressure gauge_;
-  PendingExactSums pending_;
-  std::array<ExactSum, 4> sums_;  // p, p^2, 1, area
+  double pressure_scale_, particle_count_;
+  PendingSum pending_;
 };
 
 }  // namespace sphdrop

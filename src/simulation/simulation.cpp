@@ -372,7 +372,8 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
 double Simulation::next_step_length(double squared_speed_now) const {
   const double step =
       case_.time.step > 0 ? case_.time.step : stable_time_step(parameters_.time_step, std::sqrt(squared_speed_now));
-  return is_relaxing() ? std::min(step, -time_) : step;  // the drop starts at t = 0 sharp
+  // The drop starts at t = 0 sharp, after steps that are nearly equal: contact's stiffness depends on them (Eq 24).
+  return is_relaxing() ? -time_ / std::ceil(-time_ / step) : step;
 }
 
 void Simulation::sweep_what_needs_no_ghosts() {

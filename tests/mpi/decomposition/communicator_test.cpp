@@ -125,5 +125,33 @@ TEST(PendingMaximum, MayBeForgottenWhileUnderWay) {
   EXPECT_EQ(communicator.sum(std::int64_t{1}), communicator.size());
 }
 
+TEST(PendingSum, IsTheSumTimeAfterTime) {
+  const Communicator communicator(MPI_COMM_WORLD);
+  PendingSum pending(communicator);
+  const std::int64_t rank = communicator.rank(), size = communicator.size();
+  EXPECT_FALSE(pending.is_under_way());
+  for (std::int64_t step = 0; step < 50; ++step) {
+    std::vector<std::int64_t> values{rank + step, -(std::int64_t{1} << 52) - rank};
+    pending.start(values);
+    values.assign(values.size(), 12345);  // the caller's array is free again
+    EXPECT_TRUE(pending.is_under_way());
+    EXPECT_EQ(communicator.sum(std::int64_t{1}), size);  // another collective in between does no harm
+    const auto sums = pending.finish();
+    ASSERT_EQ(sums.size(), 2u);
+    EXPECT_EQ(sums[0], size * (size - 1) / 2 + size * step);
+    EXPECT_EQ(sums[1], -size * (std::int64_t{1} << 52) - size * (size - 1) / 2);
+    EXPECT_FALSE(pending.is_under_way());
+  }
+}
+
+TEST(PendingSum, MayBeForgottenWhileUnderWay) {
+  const Communicator communicator(MPI_COMM_WORLD);
+  {
+    PendingSum pending(communicator);
+    pending.start(std::vector<std::int64_t>{1});
+  }
+  EXPECT_EQ(communicator.sum(std::int64_t{1}), communicator.size());
+}
+
 }  // namespace
 }  // namespace sphdrop

@@ -62,24 +62,5 @@ TEST(ExactSumReduce, OneNaNAnywhereIsSeenEverywhere) {
   }
 }
 
-TEST(PendingExactSums, GiveWhatAReductionGives) {
-  const Communicator communicator(MPI_COMM_WORLD);
-  PendingExactSums pending(communicator);
-  EXPECT_FALSE(pending.is_under_way());
-  std::mt19937_64 random(7U + static_cast<unsigned>(communicator.rank()));
-  for (int round = 0; round < 20; ++round) {
-    std::array<ExactSum, 2> sums;
-    for (int k = 0; k < 50; ++k)
-      sums[static_cast<std::size_t>(k % 2)].add(std::ldexp(static_cast<double>(random() >> 11), k - 80));
-    std::array<ExactSum, 2> expected = sums;
-    pending.start(sums);
-    EXPECT_TRUE(pending.is_under_way());
-    ExactSum::reduce(expected, communicator);  // another collective in between does no harm
-    pending.finish(sums);
-    EXPECT_FALSE(pending.is_under_way());
-    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(sums[k].value(), expected[k].value());
-  }
-}
-
 }  // namespace
 }  // namespace sphdrop
