@@ -14,7 +14,7 @@ enum class DropArrangement { rings, lattice };
 enum class DropPlacement { above_solid, centre };
 enum class DropMaterial { liquid, rigid };
 enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall };
-enum class SolidFormulation { automatic, hypoelastic, cells };
+enum class SolidFormulation { automatic, hypoelastic, cells, total_lagrangian };
 enum class MaterialLaw { st_venant_kirchhoff, neo_hookean };
 enum class Clamp { strips, ideal };
 enum class DeviatoricTrace { plane_strain, two_dimensional };
@@ -100,7 +100,7 @@ struct Case {
     double youngs_modulus = 0;                                         ///< E, Pa
     double poisson_ratio = 0;                                          ///< nu
     SolidFormulation formulation = SolidFormulation::automatic;        ///< never automatic in a validated case
-    MaterialLaw material_law = MaterialLaw::st_venant_kirchhoff;       ///< of cells
+    MaterialLaw material_law = MaterialLaw::st_venant_kirchhoff;       ///< of cells and total_lagrangian
     DeviatoricTrace deviatoric_trace = DeviatoricTrace::plane_strain;  ///< k = 1/3 or 1/2
     double artificial_viscosity_alpha = 0;
     double artificial_viscosity_beta = 0;

@@ -226,8 +226,8 @@ Verdict damping_of_another_solid(const Case& values) {
 
 Verdict viscosity_of_another_formulation(const Case& values) {
   if (values.solid.viscous_time == 0 || values.solid.formulation != SolidFormulation::hypoelastic) return {};
-  return "solid.viscous_time needs solid.formulation = \"cells\": the hypoelastic solid has "
-         "solid.artificial_viscosity_alpha instead; set it to 0 or take cells";
+  return "solid.viscous_time needs solid.formulation = \"cells\" or \"total_lagrangian\": the hypoelastic solid "
+         "has solid.artificial_viscosity_alpha instead; set it to 0 or take one of them";
 }
 
 // Far beyond any use: a velocity would change its sign from step to step.

@@ -51,7 +51,7 @@ constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
 constexpr std::string_view placement_words[] = {"above_solid", "centre"};
 constexpr std::string_view material_words[] = {"liquid", "rigid"};
 constexpr std::string_view solid_words[] = {"none", "cantilever", "fixed_fixed_beam", "rigid_wall"};
-constexpr std::string_view formulation_words[] = {"auto", "hypoelastic", "cells"};
+constexpr std::string_view formulation_words[] = {"auto", "hypoelastic", "cells", "total_lagrangian"};
 constexpr std::string_view law_words[] = {"st_venant_kirchhoff", "neo_hookean"};
 constexpr std::string_view clamp_words[] = {"strips", "ideal"};
 constexpr std::string_view trace_words[] = {"plane_strain", "two_dimensional"};
@@ -211,11 +211,11 @@ constexpr Parameter table[] = {
     {"solid.formulation", "", "-",
      word<&C::solid, &C::Solid::formulation>(formulation_words, SolidFormulation::automatic),
      "how the beam's stress is computed: hypoelastic = the paper's (Eqs 6-9, 14-23), cells = bilinear cells on the "
-     "same "
-     "particles; auto = hypoelastic, in mode modern cells"},
+     "same particles, total_lagrangian = kernel sums over the undeformed body; auto = hypoelastic, in mode modern "
+     "cells"},
     {"solid.material_law", "", "-",
      word<&C::solid, &C::Solid::material_law>(law_words, MaterialLaw::st_venant_kirchhoff),
-     "elastic law of a beam of cells, in plane strain"},
+     "elastic law of a beam that is not hypoelastic, in plane strain"},
     {"solid.deviatoric_trace", "", "-",
      word<&C::solid, &C::Solid::deviatoric_trace>(trace_words, DeviatoricTrace::plane_strain),
      "share of tr(e) taken off in Eq 6, hypoelastic only: plane_strain = 1/3, two_dimensional = 1/2"},
@@ -244,7 +244,8 @@ constexpr Parameter table[] = {
      "damping_ratio "
      "omega with omega of beam theory"},
     {"solid.viscous_time", "", "s", real<&C::solid, &C::Solid::viscous_time>(0.0, non_negative(1)),
-     "stiffness-proportional damping of a beam of cells (Kelvin and Voigt): viscous stress = viscous_time x the "
+     "stiffness-proportional damping of a beam that is not hypoelastic (Kelvin and Voigt): viscous stress = "
+     "viscous_time x the "
      "elastic "
      "stress of the strain rate; of a mode of angular frequency omega the damping ratio is viscous_time omega/2; it "
      "shortens the time step"},

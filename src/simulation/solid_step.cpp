@@ -5,6 +5,7 @@
 #include "setup/setup_error.hpp"
 #include "simulation/cell_step.hpp"
 #include "simulation/hypoelastic_step.hpp"
+#include "simulation/total_lagrangian_step.hpp"
 
 namespace sphdrop {
 
@@ -14,6 +15,8 @@ std::unique_ptr<SolidStep> make_solid_step(const Case& input, const HypoelasticP
   const bool is_beam = input.solid.kind == SolidKind::cantilever || input.solid.kind == SolidKind::fixed_fixed_beam;
   if (!is_beam || input.solid.formulation == SolidFormulation::hypoelastic)
     return std::make_unique<HypoelasticStep>(input, parameters);
+  if (input.solid.formulation == SolidFormulation::total_lagrangian)
+    return std::make_unique<TotalLagrangianStep>(input, parameters.material, parameters.pair.kernel);
   try {
     return std::make_unique<CellStep>(input, parameters.material, initial, first_id);
   } catch (const std::invalid_argument& error) {

@@ -10,6 +10,13 @@ namespace sphdrop {
 
 OffsetNeighbours OffsetNeighbours::build(const ParticleSet& particles, const Column<double>& x, const Column<double>& y,
                                          double reach) {
+  std::vector<char> is_owned(particles.size(), 0);
+  particles.for_each_owned([&](std::size_t row) { is_owned[row] = 1; });
+  return build(particles, is_owned, x, y, reach);
+}
+
+OffsetNeighbours OffsetNeighbours::build(const ParticleSet& particles, const std::vector<char>& wanted,
+                                         const Column<double>& x, const Column<double>& y, double reach) {
   OffsetNeighbours list;
   const std::size_t size = particles.size();
   if (size == 0) return list;
@@ -25,10 +32,11 @@ OffsetNeighbours OffsetNeighbours::build(const ParticleSet& particles, const Col
     block.first_row = static_cast<std::int32_t>(first);
     block.first_offset = static_cast<std::int32_t>(list.offsets.size());
     found.clear();
-    bool any_owned = false;
+    bool any_wanted = false;
     for (std::size_t i = first; i < std::min(first + block_size, size); ++i) {
-      if (!is_owned[i]) continue;
-      any_owned = true;
+      if (!wanted[i]) continue;
+      any_wanted = true;
+      if (!is_owned[i]) block.needs_ghosts = true;
       const Vector here{x[i], y[i]};
       grid.for_each_near(here, [&](std::int32_t j) {
         const auto row = static_cast<std::size_t>(j);
@@ -38,7 +46,7 @@ OffsetNeighbours OffsetNeighbours::build(const ParticleSet& particles, const Col
         found.push_back(j - static_cast<std::int32_t>(i));
       });
     }
-    if (!any_owned) continue;
+    if (!any_wanted) continue;
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     block.offsets = static_cast<std::int32_t>(found.size());

@@ -27,6 +27,9 @@ struct OffsetNeighbours {
   /// Blocks that cover all owned rows of `particles`, whose rows must be sorted by id. `reach` in m.
   static OffsetNeighbours build(const ParticleSet& particles, const Column<double>& x, const Column<double>& y,
                                 double reach);
+  /// The same for all rows marked in `wanted`, ghosts among them.
+  static OffsetNeighbours build(const ParticleSet& particles, const std::vector<char>& wanted, const Column<double>& x,
+                                const Column<double>& y, double reach);
 };
 
 }  // namespace sphdrop

@@ -248,6 +248,28 @@ damping_ratio = 0.1
 viscous_time = 1e-8
 )";
 
+// Thick enough to be cut lengthwise too.
+constexpr const char* total_lagrangian = R"(
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+diameter = 0.6e-3
+velocity = [0.0, -3.0]
+gap = 1e-6
+[solid]
+kind = "fixed_fixed_beam"
+length = 1.5e-3
+thickness = 0.5e-3
+youngs_modulus = 20e6
+formulation = "total_lagrangian"
+material_law = "neo_hookean"
+damping_ratio = 0.1
+viscous_time = 1e-8
+)";
+
 // Half of it over the end of the wall.
 constexpr const char* rigid_square = R"(
 [resolution]
@@ -413,6 +435,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, RankEquality,
                                          EqualityCase{"rigid_ball", rigid_ball, 400, 0x16f5c0d39849342a},
                                          EqualityCase{"rigid_square", rigid_square, 400, 0xbf61398f3fbc045d},
                                          EqualityCase{"cells", cells, 400, 0xc4980657160166fc},
+                                         EqualityCase{"total_lagrangian", total_lagrangian, 300, 0x947da3d26bfad5c7},
                                          EqualityCase{"damped_cells", damped_cells, 300, 0x6796322f3a8746e5},
                                          EqualityCase{"two_drops", two_drops, 200, 0x259449168e48b2b6},
                                          EqualityCase{"modern_wall", modern_wall, 300, 0x4ea75a21caf63b8f},

@@ -99,7 +99,8 @@ youngs_modulus = 6e6
 
 INSTANTIATE_TEST_SUITE_P(Solids, Restart,
                          testing::Values("solid.formulation=hypoelastic", "solid.formulation=cells",
-                                         "solid.viscous_time=1e-8", "solid.damping_ratio=0.2"),
+                                         "solid.formulation=total_lagrangian", "solid.viscous_time=1e-8",
+                                         "solid.damping_ratio=0.2"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::replace_if(

@@ -92,6 +92,7 @@ TEST(ParameterTable, WordsMeanTheirEnumerators) {
   EXPECT_EQ(stored("solid.formulation", "auto").solid.formulation, SolidFormulation::automatic);
   EXPECT_EQ(stored("solid.formulation", "hypoelastic").solid.formulation, SolidFormulation::hypoelastic);
   EXPECT_EQ(stored("solid.formulation", "cells").solid.formulation, SolidFormulation::cells);
+  EXPECT_EQ(stored("solid.formulation", "total_lagrangian").solid.formulation, SolidFormulation::total_lagrangian);
   EXPECT_EQ(stored("solid.material_law", "st_venant_kirchhoff").solid.material_law, MaterialLaw::st_venant_kirchhoff);
   EXPECT_EQ(stored("solid.material_law", "neo_hookean").solid.material_law, MaterialLaw::neo_hookean);
   EXPECT_EQ(stored("solid.clamp", "strips").solid.clamp, Clamp::strips);
