@@ -34,16 +34,18 @@ void TotalLagrangianSweep::relist(const SolidParticles& s) {
   owned_ = OffsetNeighbours::build(s, x, y, support_);
   // Every row within reach of an owned one is deformed here.
   const std::vector<char> is_owned = wanted;
-  for (const OffsetNeighbours::Block& block : owned_.blocks)
+  for (const OffsetNeighbours::Block& block : owned_.blocks) {
+    const std::int32_t* offsets = owned_.offsets.data() + block.first_offset;
     for (std::int32_t row = block.first_row; row < block.first_row + block_size; ++row)
       for (std::int32_t k = 0; k < block.offsets; ++k) {
-        const std::int32_t j = row + owned_.offsets[static_cast<std::size_t>(block.first_offset + k)];
+        const std::int32_t j = row + offsets[k];
         const auto size = static_cast<std::int32_t>(s.size());
         if (row >= size || j < 0 || j >= size || !is_owned[static_cast<std::size_t>(row)]) continue;
         const Vector away = s.reference_position.at(static_cast<std::size_t>(row)) -
                             s.reference_position.at(static_cast<std::size_t>(j));
         if (squared_length(away) < support_ * support_) wanted[static_cast<std::size_t>(j)] = 1;
       }
+  }
   deformed_ = OffsetNeighbours::build(s, wanted, x, y, support_);
 
   clear(moment_, s.size());
@@ -52,13 +54,14 @@ void TotalLagrangianSweep::relist(const SolidParticles& s) {
   heating_.resize(0);
   heating_.resize(s.size());
   // Rows that are not deformed here keep B = 0, hence F = I and no load.
-  for (const OffsetNeighbours::Block& block : deformed_.blocks)
+  for (const OffsetNeighbours::Block& block : deformed_.blocks) {
+    const std::int32_t* offsets = deformed_.offsets.data() + block.first_offset;
     for (std::int32_t row = block.first_row; row < block.first_row + block_size; ++row) {
       const auto i = static_cast<std::size_t>(row);
       if (i >= s.size() || !wanted[i]) continue;
       PlaneStrainTensor<double> moment;
       for (std::int32_t k = 0; k < block.offsets; ++k) {
-        const std::int32_t j = row + deformed_.offsets[static_cast<std::size_t>(block.first_offset + k)];
+        const std::int32_t j = row + offsets[k];
         if (j < 0 || static_cast<std::size_t>(j) >= s.size()) continue;
         const auto other = static_cast<std::size_t>(j);
         const double dx = x[i] - x[other], dy = y[i] - y[other];
@@ -69,6 +72,7 @@ void TotalLagrangianSweep::relist(const SolidParticles& s) {
       moment_[1][i] = b.yy;
       moment_[2][i] = b.xy;
     }
+  }
 }
 
 void TotalLagrangianSweep::deform(const SolidParticles& solid, Blocks which) {
