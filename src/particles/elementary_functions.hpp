@@ -81,7 +81,7 @@ inline double natural_logarithm(double x) {
     fraction *= 2.0;
     --exponent;
   }
-  // ln f = 2 artanh z, z = (f - 1)/(f + 1), |z| < 0.172: the first term left out is below 1e-17 of the sum.
+  // ln f = 2 artanh z, z = (f - 1)/(f + 1), |z| < 0.172: the first term left out is below 1e-18 of the sum.
   const double z = (fraction - 1.0) / (fraction + 1.0), z_squared = z * z;
   double tail = 1.0 / 23.0;
   for (int n = 21; n >= 1; n -= 2) tail = 1.0 / n + z_squared * tail;

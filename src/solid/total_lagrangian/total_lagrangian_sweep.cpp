@@ -18,6 +18,19 @@ void clear(std::array<Column<double>, n>& columns, std::size_t rows) {
   }
 }
 
+std::vector<double> pair_factors(const CubicSpline& kernel, const SolidParticles& s, const OffsetNeighbours& list) {
+  std::vector<double> factors(block_size * list.offsets.size());
+  const double *x = s.reference_position.x.data(), *y = s.reference_position.y.data();
+  for (const OffsetNeighbours::Block& block : list.blocks)
+    for (std::int32_t k = block.first_offset; k < block.first_offset + block.offsets; ++k)
+      for (std::int32_t lane = 0; lane < block_size; lane += pack_size) {
+        const std::int64_t i = block.first_row + lane, j = i + list.offsets[static_cast<std::size_t>(k)];
+        store(gradient_factor(kernel, load(x + i) - load(x + j), load(y + i) - load(y + j)),
+              factors.data() + std::ptrdiff_t{block_size} * k + lane);
+      }
+  return factors;
+}
+
 }  // namespace
 
 TotalLagrangianSweep::TotalLagrangianSweep(const AnyTotalLagrangianMaterial& material, const CubicSpline& kernel)
@@ -34,17 +47,22 @@ void TotalLagrangianSweep::relist(const SolidParticles& s) {
   owned_ = OffsetNeighbours::build(s, x, y, support_);
   // Every row within reach of an owned one is deformed here.
   const std::vector<char> is_owned = wanted;
-  for (const OffsetNeighbours::Block& block : owned_.blocks)
+  for (const OffsetNeighbours::Block& block : owned_.blocks) {
+    const std::int32_t* offsets = owned_.offsets.data() + block.first_offset;
     for (std::int32_t row = block.first_row; row < block.first_row + block_size; ++row)
       for (std::int32_t k = 0; k < block.offsets; ++k) {
-        const std::int32_t j = row + owned_.offsets[static_cast<std::size_t>(block.first_offset + k)];
+        const std::int32_t j = row + offsets[k];
         const auto size = static_cast<std::int32_t>(s.size());
         if (row >= size || j < 0 || j >= size || !is_owned[static_cast<std::size_t>(row)]) continue;
         const Vector away = s.reference_position.at(static_cast<std::size_t>(row)) -
                             s.reference_position.at(static_cast<std::size_t>(j));
         if (squared_length(away) < support_ * support_) wanted[static_cast<std::size_t>(j)] = 1;
       }
+  }
   deformed_ = OffsetNeighbours::build(s, wanted, x, y, support_);
+
+  deformed_factors_ = pair_factors(kernel_, s, deformed_);
+  owned_factors_ = pair_factors(kernel_, s, owned_);
 
   clear(moment_, s.size());
   clear(gradient_, s.size());
@@ -52,13 +70,14 @@ void TotalLagrangianSweep::relist(const SolidParticles& s) {
   heating_.resize(0);
   heating_.resize(s.size());
   // Rows that are not deformed here keep B = 0, hence F = I and no load.
-  for (const OffsetNeighbours::Block& block : deformed_.blocks)
+  for (const OffsetNeighbours::Block& block : deformed_.blocks) {
+    const std::int32_t* offsets = deformed_.offsets.data() + block.first_offset;
     for (std::int32_t row = block.first_row; row < block.first_row + block_size; ++row) {
       const auto i = static_cast<std::size_t>(row);
       if (i >= s.size() || !wanted[i]) continue;
       PlaneStrainTensor<double> moment;
       for (std::int32_t k = 0; k < block.offsets; ++k) {
-        const std::int32_t j = row + deformed_.offsets[static_cast<std::size_t>(block.first_offset + k)];
+        const std::int32_t j = row + offsets[k];
         if (j < 0 || static_cast<std::size_t>(j) >= s.size()) continue;
         const auto other = static_cast<std::size_t>(j);
         const double dx = x[i] - x[other], dy = y[i] - y[other];
@@ -69,6 +88,7 @@ void TotalLagrangianSweep::relist(const SolidParticles& s) {
       moment_[1][i] = b.yy;
       moment_[2][i] = b.xy;
     }
+  }
 }
 
 void TotalLagrangianSweep::deform(const SolidParticles& solid, Blocks which) {
@@ -85,7 +105,6 @@ void TotalLagrangianSweep::deform(const SolidParticles& solid, Blocks which) {
 template <class Law, bool is_viscous>
 void TotalLagrangianSweep::deform_blocks(const TotalLagrangianMaterial<Law>& m, const SolidParticles& s, Blocks which) {
   const TotalLagrangianMaterial<Law> material = m;
-  const CubicSpline kernel = kernel_;
   const double inverse_density = 1.0 / material.density;
   const double *x0 = s.reference_position.x.data(), *y0 = s.reference_position.y.data();
   const double *x = s.position.x.data(), *y = s.position.y.data(), *mass = s.mass.data();
@@ -94,6 +113,7 @@ void TotalLagrangianSweep::deform_blocks(const TotalLagrangianMaterial<Law>& m, 
   for (const OffsetNeighbours::Block& block : deformed_.blocks) {
     if (block.needs_ghosts != (which == Blocks::with_ghosts)) continue;
     const std::int32_t* offsets = deformed_.offsets.data() + block.first_offset;
+    const double* factors = deformed_factors_.data() + std::ptrdiff_t{block_size} * block.first_offset;
     for (std::int32_t lane = 0; lane < block_size; lane += pack_size) {
       const std::int64_t i = block.first_row + lane;
       const Pack x0_i = load(x0 + i), y0_i = load(y0 + i);
@@ -103,7 +123,8 @@ void TotalLagrangianSweep::deform_blocks(const TotalLagrangianMaterial<Law>& m, 
       for (std::int32_t k = 0; k < block.offsets; ++k) {
         const std::int64_t j = i + offsets[k];
         const Pack dx = x0_i - load(x0 + j), dy = y0_i - load(y0 + j);
-        const Pack factor = gradient_factor(kernel, dx, dy), volume = load(mass + j) * Pack(inverse_density);
+        const Pack factor = load(factors + std::ptrdiff_t{block_size} * k + lane),
+                   volume = load(mass + j) * Pack(inverse_density);
         add_to_gradient(volume, factor, dx, dy, moved_x - (load(x + j) - load(x0 + j)),
                         moved_y - (load(y + j) - load(y0 + j)), displacement);
         if constexpr (is_viscous)
@@ -141,7 +162,6 @@ void TotalLagrangianSweep::deform_blocks(const TotalLagrangianMaterial<Law>& m, 
 }
 
 void TotalLagrangianSweep::accelerate(SolidParticles& s) const {
-  const CubicSpline kernel = kernel_;
   const double squared_inverse_density = 1.0 / (density_ * density_);
   const double *x0 = s.reference_position.x.data(), *y0 = s.reference_position.y.data(), *mass = s.mass.data();
   const auto load_of = [&](std::int64_t row) -> PlaneTensor<Pack> {
@@ -150,6 +170,7 @@ void TotalLagrangianSweep::accelerate(SolidParticles& s) const {
   };
   for (const OffsetNeighbours::Block& block : owned_.blocks) {
     const std::int32_t* offsets = owned_.offsets.data() + block.first_offset;
+    const double* factors = owned_factors_.data() + std::ptrdiff_t{block_size} * block.first_offset;
     for (std::int32_t lane = 0; lane < block_size; lane += pack_size) {
       const std::int64_t i = block.first_row + lane;
       const Pack x0_i = load(x0 + i), y0_i = load(y0 + i);
@@ -158,8 +179,8 @@ void TotalLagrangianSweep::accelerate(SolidParticles& s) const {
       for (std::int32_t k = 0; k < block.offsets; ++k) {
         const std::int64_t j = i + offsets[k];
         const Pack dx = x0_i - load(x0 + j), dy = y0_i - load(y0 + j);
-        add_to_acceleration(load(mass + j) * Pack(squared_inverse_density), gradient_factor(kernel, dx, dy), dx, dy,
-                            load_i, load_of(j), ax, ay);
+        add_to_acceleration(load(mass + j) * Pack(squared_inverse_density),
+                            load(factors + std::ptrdiff_t{block_size} * k + lane), dx, dy, load_i, load_of(j), ax, ay);
       }
       store(ax, s.acceleration.x.data() + i);
       store(ay, s.acceleration.y.data() + i);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "particles/solid_particles.hpp"
 #include "solid/plane_strain.hpp"
@@ -60,6 +61,9 @@ class TotalLagrangianSweep {
   double support_, density_;
   bool is_viscous_;
   OffsetNeighbours deformed_, owned_;
+  // gradient_factor() of the pairs, which never changes: eight lanes for each offset of each block, one block after the
+  // other.
+  std::vector<double> deformed_factors_, owned_factors_;
   std::array<Column<double>, 3> moment_;    // B: xx, yy, xy
   std::array<Column<double>, 4> gradient_;  // F: xx, xy, yx, yy
   std::array<Column<double>, 4> load_;      // P B

@@ -75,6 +75,18 @@ TEST(Exponential, KeepsToItsLimits) {
   EXPECT_LE(units_in_the_last_place(exponential(-744.0), std::exp(-744.0)), 1);
 }
 
+TEST(NaturalLogarithm, AgreesWithTheLibrary) {
+  EXPECT_EQ(natural_logarithm(1.0), 0.0);
+  for (int k = -3000; k <= 3000; ++k) {
+    const double x = std::exp(0.2 * k + 1e-3);
+    EXPECT_LE(units_in_the_last_place(natural_logarithm(x), std::log(x)), 2) << x;
+  }
+  for (int k = 1; k <= 4000; ++k) {
+    const double x = 0.5 + k * 2.5e-4;  // about 1, where the logarithm is small
+    EXPECT_NEAR(natural_logarithm(x), std::log(x), 6e-16 * std::abs(std::log(x))) << x;
+  }
+}
+
 TEST(HyperbolicFunctions, AgreeWithTheLibrary) {
   for (int k = 1; k <= 1000; ++k) {
     const double x = k * 5e-3;

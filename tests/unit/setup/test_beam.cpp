@@ -89,6 +89,21 @@ TEST(Cantilever, HasItsLatticeAndItsClamp) {
   EXPECT_NEAR(beam.positions.back().x, 31.5 * d, 1e-9 * d);
 }
 
+TEST(Cantilever, InAnIdealClampIsHeldItselfAndHasNoStrips) {
+  Case::Solid solid = short_beam(SolidKind::cantilever);
+  solid.clamp = Clamp::ideal;
+  const InitialSolid beam = build_beam(solid, d);
+  ASSERT_EQ(beam.positions.size(), (20u + 32u) * 10u);
+  EXPECT_EQ(beam.mobile_count, 32u * 10u);
+  for (std::size_t k = 0; k < beam.positions.size(); ++k)
+    EXPECT_EQ(beam.is_fixed[k] != 0, beam.positions[k].x < 0) << k;
+  // Over the top, down the free end and back along the underside, without a corner between.
+  const std::vector<Vector> line = line_of(beam, 0);
+  ASSERT_EQ(line.size(), 2u * 52u + 8u);
+  for (std::size_t k = 1; k < line.size(); ++k) EXPECT_NEAR(length(line[k] - line[k - 1]), d, 1e-9 * d) << k;
+  EXPECT_EQ(line.front().x, line.back().x);
+}
+
 TEST(Cantilever, StandsInLatticeOrder) {
   for (const SolidKind kind : {SolidKind::cantilever, SolidKind::fixed_fixed_beam}) {
     const InitialSolid beam = build_beam(short_beam(kind), d);

@@ -54,6 +54,16 @@ TEST(TimeStep, ShrinksAsParticlesSpeedUp) {
   EXPECT_LT(acoustic_time_step(paper, 1.0), acoustic_time_step(paper, 0.0));
 }
 
+// Half of viscous_time omega is the fastest mode's damping ratio; omega = 4 c/h.
+TEST(TimeStep, ShrinksAsTheSolidIsDamped) {
+  TimeStepLimits l = paper;
+  const double omega = 4.0 * l.sound_speed / l.smoothing_length;
+  l.viscous_time = 1e-3 / omega;
+  EXPECT_NEAR(acoustic_time_step(l, 0.0) / acoustic_time_step(paper, 0.0), 1.0 - 1e-3, 1e-6);
+  l.viscous_time = 1e3 / omega;
+  EXPECT_NEAR(acoustic_time_step(l, 0.0) / acoustic_time_step(paper, 0.0), 0.5e-3, 1e-9);
+}
+
 TEST(TimeStep, WithoutTensionOrViscosityTheirLimitsFall) {
   TimeStepLimits l = paper;
   l.surface_tension = 0;
