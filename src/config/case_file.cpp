@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "config/consistency.hpp"
 #include "config/derived_defaults.hpp"
 #include "config/key_suggestion.hpp"
+#include "config/mode_presets.hpp"
 #include "config/override.hpp"
 #include "config/parameter_store.hpp"
 #include "config/parameter_table.hpp"
@@ -54,6 +56,7 @@ class CaseReader {
   void take_drops(const TomlNode& array);
   void store_values();
   void store_given(const Parameter& parameter, std::size_t drop, Case& values);
+  void apply_presets();
   void report_missing(const Parameter& parameter);
   void find_contradictions();
   std::string located(const Finding& finding, std::size_t drop) const;
@@ -220,8 +223,20 @@ void CaseReader::find_contradictions() {
   }
 }
 
+void CaseReader::apply_presets() {
+  if (values_.mode != Mode::modern) return;
+  const Case plain = values_;
+  for (const Preset& preset : modern_presets()) {
+    if (given_.contains(preset.key) || !preset.applies(plain)) continue;
+    const TomlNode value = parse_toml("value = " + std::string(preset.value), "mode").members.front();
+    [[maybe_unused]] const auto mistake = store(*find_parameter(preset.key), value, values_);
+    assert(!mistake);
+  }
+}
+
 ParsedCase CaseReader::finish() {
   store_values();
+  apply_presets();
   fill_derived_defaults(values_, source_name_);
   find_contradictions();
   if (!mistakes_.empty()) {

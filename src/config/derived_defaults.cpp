@@ -60,11 +60,12 @@ double default_domain_margin(const Case& all) {
   });
 }
 
-// The largest that stay stable, with something to spare: cells stand 0.5 by their own c_s, a liquid 0.3 by its c_f.
+// The largest that stay stable, with something to spare: cells stand 0.5 by their own c_s, water 0.2 by its c_f.
 double default_sound_cfl(const Case& values) {
   if (values.mode == Mode::paper) return 0.1;
-  const bool beam_limits = has_beam(values) && beam_sound_speed(values) >= 1.4 * values.fluid.sound_speed;
-  return beam_limits || !values.drop.is_liquid() ? 0.4 : 0.25;
+  constexpr double of_solid = 0.4, of_liquid = 0.2;
+  if (!values.drop.is_liquid()) return of_solid;
+  return std::min(of_solid, of_liquid * largest_sound_speed(values) / values.fluid.sound_speed);
 }
 
 void fill(double& value, double automatic) {

@@ -103,8 +103,7 @@ constexpr Parameter table[] = {
      "fixed time step; 0 = the smallest of Eqs 40-42"},
     {"time.sound_cfl", "", "-",
      real<&C::time, &C::Time::sound_cfl>(
-         Automatic{
-             "0.1; mode modern: 0.4 where a beam's sound is at least 1.4 times as fast as the liquid's, else 0.25"},
+         Automatic{"0.1; mode modern: 0.4, less where the step would be more than 0.2 by the liquid's sound"},
          positive(1)),
      "factor of Eq 40 (sound)"},
     {"time.capillary_cfl", "", "-", real<&C::time, &C::Time::capillary_cfl>(0.1, positive(1)),

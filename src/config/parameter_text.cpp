@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "config/mode_presets.hpp"
 #include "config/overloaded.hpp"
 #include "config/parameter_store.hpp"
 #include "config/utf8.hpp"
@@ -87,7 +88,8 @@ std::string default_text(const Parameter& parameter) {
   if (automatic != nullptr) return fmt::format("{} ({})", quoted(automatic_word), automatic->meaning);
   Case values;
   store_default(parameter, values);
-  return value_text(parameter, values);
+  const Preset* modern = modern_preset(parameter.key);
+  return value_text(parameter, values) + (modern == nullptr ? "" : fmt::format(" (mode modern: {})", modern->value));
 }
 
 std::string allowed_text(const Parameter& parameter) {

@@ -94,13 +94,28 @@ TEST(Defaults, OfModeModernAreWhatWorksBetter) {
   const Case c = read({"mode=modern"});
   EXPECT_EQ(c.solid.formulation, SolidFormulation::cells);
   EXPECT_EQ(c.time.sound_cfl, 0.4);
+  EXPECT_EQ(c.solid.clamp, Clamp::ideal);
+  EXPECT_EQ(c.contact.stiffness_form, ContactStiffness::fixed);
+  EXPECT_EQ(c.contact.stiffness, 0.3);
+  EXPECT_EQ(c.fluid.viscosity_form, ViscosityForm::physical);
+  EXPECT_EQ(c.fluid.artificial_viscosity_alpha, 0);
+  EXPECT_EQ(c.fluid.gauge_pressure, Switch::on);
+  EXPECT_EQ(c.fluid.shifting, Switch::on);
+  // Each only where there is what it is for.
+  const Case no_tension = read({"mode=modern", "surface_tension.form=none"});
+  EXPECT_EQ(no_tension.fluid.gauge_pressure, Switch::off);
+  EXPECT_EQ(no_tension.fluid.viscosity_form, ViscosityForm::physical);
+  EXPECT_EQ(read({"mode=modern", "drop.material=rigid"}).fluid.viscosity_form, ViscosityForm::artificial);
+  EXPECT_EQ(read({"mode=modern", "solid.formulation=total_lagrangian"}).solid.clamp, Clamp::strips);
   // Single keys still decide.
   const Case mixed = read({"mode=modern", "solid.formulation=hypoelastic", "time.sound_cfl=0.1"});
   EXPECT_EQ(mixed.solid.formulation, SolidFormulation::hypoelastic);
   EXPECT_EQ(mixed.time.sound_cfl, 0.1);
   // The liquid's sound sets the step where the beam is soft, or there is none.
-  EXPECT_EQ(read({"mode=modern", "solid.youngs_modulus=2e6"}).time.sound_cfl, 0.25);
-  EXPECT_EQ(read({"mode=modern", "solid.kind=rigid_wall"}).time.sound_cfl, 0.25);
+  EXPECT_EQ(read({"mode=modern", "solid.youngs_modulus=2e6"}).time.sound_cfl, 0.2);
+  EXPECT_EQ(read({"mode=modern", "solid.kind=rigid_wall"}).time.sound_cfl, 0.2);
+  EXPECT_NEAR(read({"mode=modern", "solid.youngs_modulus=6e6"}).time.sound_cfl, 0.2 * std::sqrt(6e6 / 1.2 / 1000) / 50,
+              1e-12);
 }
 
 TEST(DerivedDefaults, FollowFromTheOthers) {

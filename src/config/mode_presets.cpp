@@ -1,0 +1,49 @@
+#include "config/mode_presets.hpp"
+
+#include <algorithm>
+
+#include "config/derived_defaults.hpp"
+
+namespace sphdrop {
+namespace {
+
+bool has_liquid(const Case& values) {
+  return values.drop.is_liquid();
+}
+
+// The gauge acts on the surface's curve, and shifting heeds it.
+bool has_surface(const Case& values) {
+  return values.drop.is_liquid() && values.surface_tension.form != SurfaceTensionForm::none &&
+         values.surface_tension.coefficient > 0;
+}
+
+// The clamp's edge is exact for cells alone.
+bool has_beam_of_cells(const Case& values) {
+  return has_beam(values) && (values.solid.formulation == SolidFormulation::automatic ||
+                              values.solid.formulation == SolidFormulation::cells);
+}
+
+bool has_contact(const Case& values) {
+  return has_drop(values) && values.solid.kind != SolidKind::none;
+}
+
+constexpr Preset presets[] = {
+    {"fluid.viscosity_form", "\"physical\"", has_liquid}, {"fluid.artificial_viscosity_alpha", "0.0", has_liquid},
+    {"fluid.gauge_pressure", "\"on\"", has_surface},      {"fluid.shifting", "\"on\"", has_surface},
+    {"solid.formulation", "\"cells\"", has_beam},         {"solid.clamp", "\"ideal\"", has_beam_of_cells},
+    {"contact.stiffness_form", "\"fixed\"", has_contact},
+};
+
+}  // namespace
+
+std::span<const Preset> modern_presets() {
+  return presets;
+}
+
+const Preset* modern_preset(std::string_view key) {
+  const auto found =
+      std::find_if(std::begin(presets), std::end(presets), [&](const Preset& p) { return p.key == key; });
+  return found == std::end(presets) ? nullptr : &*found;
+}
+
+}  // namespace sphdrop
