@@ -164,7 +164,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     } catch (const RunRecordError& loss) {
       message += fmt::format("\nwarning: {}", loss.what());
     }
-    throw SafetyError(text);
+    throw SafetyError(message);
   }
   const std::uint64_t hash = recorder.finish();
   const RunSummary summary = recorder.summary();
