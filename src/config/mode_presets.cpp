@@ -7,13 +7,15 @@
 namespace sphdrop {
 namespace {
 
-bool has_liquid(const Case& values) {
-  return values.drop.is_liquid();
+// The liquid of low viscosity needs shifting, and shifting lets a drop swell that hangs over a beam's end: 50 % in area
+// within 5 ms, with a third of the impact's energy. So on a beam the liquid stays the paper's.
+bool has_liquid_without_beam(const Case& values) {
+  return values.drop.is_liquid() && !has_beam(values);
 }
 
 // The gauge acts on the surface's curve, and shifting heeds it.
-bool has_surface(const Case& values) {
-  return values.drop.is_liquid() && values.surface_tension.form != SurfaceTensionForm::none &&
+bool has_surface_without_beam(const Case& values) {
+  return has_liquid_without_beam(values) && values.surface_tension.form != SurfaceTensionForm::none &&
          values.surface_tension.coefficient > 0;
 }
 
@@ -28,10 +30,13 @@ bool has_contact(const Case& values) {
 }
 
 constexpr Preset presets[] = {
-    {"fluid.viscosity_form", "\"physical\"", has_liquid}, {"fluid.artificial_viscosity_alpha", "0.0", has_liquid},
-    {"fluid.gauge_pressure", "\"on\"", has_surface},      {"fluid.shifting", "\"on\"", has_surface},
-    {"solid.formulation", "\"cells\"", has_beam},         {"solid.clamp", "\"ideal\"", has_beam_of_cells},
-    {"contact.stiffness_form", "\"fixed\"", has_contact},
+    {"fluid.viscosity_form", "\"physical\"", "without a beam", has_liquid_without_beam},
+    {"fluid.artificial_viscosity_alpha", "0.0", "without a beam", has_liquid_without_beam},
+    {"fluid.gauge_pressure", "\"on\"", "without a beam", has_surface_without_beam},
+    {"fluid.shifting", "\"on\"", "without a beam", has_surface_without_beam},
+    {"solid.formulation", "\"cells\"", "", has_beam},
+    {"solid.clamp", "\"ideal\"", "", has_beam_of_cells},
+    {"contact.stiffness_form", "\"fixed\"", "", has_contact},
 };
 
 }  // namespace

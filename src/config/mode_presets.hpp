@@ -12,6 +12,7 @@ namespace sphdrop {
 struct Preset {
   std::string_view key;
   std::string_view value;        ///< as TOML
+  std::string_view restriction;  ///< in words, after the value; "" where it holds for whatever the parameter is of
   bool (*applies)(const Case&);  ///< of the case without presets; where it does not, the common default stays
 };
 

@@ -89,7 +89,10 @@ std::string default_text(const Parameter& parameter) {
   Case values;
   store_default(parameter, values);
   const Preset* modern = modern_preset(parameter.key);
-  return value_text(parameter, values) + (modern == nullptr ? "" : fmt::format(" (mode modern: {})", modern->value));
+  return value_text(parameter, values) +
+         (modern == nullptr ? ""
+                            : fmt::format(" (mode modern: {}{})", modern->value,
+                                          modern->restriction.empty() ? "" : fmt::format(" {}", modern->restriction)));
 }
 
 std::string allowed_text(const Parameter& parameter) {

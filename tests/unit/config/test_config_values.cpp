@@ -97,15 +97,18 @@ TEST(Defaults, OfModeModernAreWhatWorksBetter) {
   EXPECT_EQ(c.solid.clamp, Clamp::ideal);
   EXPECT_EQ(c.contact.stiffness_form, ContactStiffness::fixed);
   EXPECT_EQ(c.contact.stiffness, 0.3);
-  EXPECT_EQ(c.fluid.viscosity_form, ViscosityForm::physical);
-  EXPECT_EQ(c.fluid.artificial_viscosity_alpha, 0);
-  EXPECT_EQ(c.fluid.gauge_pressure, Switch::on);
-  EXPECT_EQ(c.fluid.shifting, Switch::on);
+  EXPECT_EQ(c.fluid.viscosity_form, ViscosityForm::artificial);
+  const Case wall = read({"mode=modern", "solid.kind=rigid_wall"});
+  EXPECT_EQ(wall.fluid.viscosity_form, ViscosityForm::physical);
+  EXPECT_EQ(wall.fluid.artificial_viscosity_alpha, 0);
+  EXPECT_EQ(wall.fluid.gauge_pressure, Switch::on);
+  EXPECT_EQ(wall.fluid.shifting, Switch::on);
   // Each only where there is what it is for.
-  const Case no_tension = read({"mode=modern", "surface_tension.form=none"});
+  const Case no_tension = read({"mode=modern", "solid.kind=rigid_wall", "surface_tension.form=none"});
   EXPECT_EQ(no_tension.fluid.gauge_pressure, Switch::off);
   EXPECT_EQ(no_tension.fluid.viscosity_form, ViscosityForm::physical);
-  EXPECT_EQ(read({"mode=modern", "drop.material=rigid"}).fluid.viscosity_form, ViscosityForm::artificial);
+  EXPECT_EQ(read({"mode=modern", "solid.kind=rigid_wall", "drop.material=rigid"}).fluid.viscosity_form,
+            ViscosityForm::artificial);
   EXPECT_EQ(read({"mode=modern", "solid.formulation=total_lagrangian"}).solid.clamp, Clamp::strips);
   // Single keys still decide.
   const Case mixed = read({"mode=modern", "solid.formulation=hypoelastic", "time.sound_cfl=0.1"});
