@@ -56,6 +56,12 @@ TEST(SeveralDrops, TheFastestAndLargestCount) {
   EXPECT_GT(read({"drop.velocity=[5, 0]"}).safety.domain_margin, margin);
 }
 
+TEST(SeveralDrops, StayThePapersLiquidInModeModern) {
+  EXPECT_EQ(read({"mode=modern"}).fluid.viscosity_form, ViscosityForm::artificial);
+  EXPECT_EQ(read({"mode=modern"}, two_drops.substr(0, two_drops.rfind("[[drop]]"))).fluid.viscosity_form,
+            ViscosityForm::physical);
+}
+
 TEST(SeveralDrops, TheEffectiveCaseRepeatsThem) {
   const Case c = read();
   EXPECT_EQ(read({}, effective_case_text(c)), c);
