@@ -73,7 +73,7 @@ def measure(results: Results) -> dict[str, float]:
             f"touches_again_{name}": len(contact_episodes(run)) - 1.0 if has_left else math.nan}
         rigid = rigid_run(run)
         if rigid is not None:
-            found[f"contact_over_rigid_{name}"] = contact_time(run) / contact_time(rigid)
+            found[f"contact_over_rigid_{name}"] = contact_time(run) / quantities.contact_time(rigid)
             found[f"impulse_time_over_rigid_{name}"] = impulse_time(run) / quantities.impulse_time(rigid)
     return {name: value for name, value in found.items() if math.isfinite(value)}
 
@@ -106,12 +106,13 @@ def draw_contact_times(runs: dict[str, Run]) -> Figure | None:
         return None
     figure, axes = plt.subplots(figsize=(5.2, 3.2), layout="constrained")
     rigid = {NAMES[name]: found for name, run in runs.items() if (found := rigid_run(run)) is not None}
-    for label, chosen, colour in (("beam", {NAMES[name]: run for name, run in runs.items()}, LINES[0]),
-                                  ("rigid wall", rigid, LINES[5])):
+    # On the wall the film's middle lifts for a moment: only the last touch ends its contact.
+    for label, chosen, colour, time, until in (
+            ("beam", {NAMES[name]: run for name, run in runs.items()}, LINES[0], contact_time, "until the drop parts"),
+            ("rigid wall", rigid, LINES[5], quantities.contact_time, "until its last touch")):
         if not chosen:
             continue
-        axes.plot(list(chosen), [contact_time(run) * MILLI for run in chosen.values()], "o-", ms=4, color=colour,
-                  label=f"{label}: until the drop parts")
+        axes.plot(list(chosen), [time(run) * MILLI for run in chosen.values()], "o-", ms=4, color=colour, label=f"{label}: {until}")
         axes.plot(list(chosen), [impulse_time(run) * MILLI for run in chosen.values()], "o:", ms=4, mfc="none",
                   color=colour, label=f"{label}: 99 % of the impulse")
     axes.axhline(PAPER_RIGID * MILLI, color="#1c222b", **PAPER, label="paper: rigid wall, 3.17 ms")
