@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import time
 import unittest
@@ -64,12 +65,12 @@ def end_of(run: subprocess.Popen[str], folder: Path) -> str:
         raise AssertionError(f"not ended after {LONGEST} s; in ten seconds more it went from\n{before}\nto\n{after}") from None
 
 
-def running_ranks() -> list[int]:
-    """Processes of the program, on any host; the sandbox has no others."""
+def running(program: Path) -> list[int]:
+    """Processes of a program, on any host; the sandbox has no others."""
     found = []
     for entry in Path("/proc").glob("[0-9]*"):
         try:
-            if (entry / "exe").readlink() == Path(PROGRAM).resolve():
+            if (entry / "exe").readlink() == program.resolve():
                 found.append(int(entry.name))
         except OSError:
             continue
@@ -102,7 +103,7 @@ class Hosts(unittest.TestCase):
         start = time.monotonic()
         said = end_of(run, results)
         seconds = time.monotonic() - start
-        while running_ranks() and time.monotonic() - start < LONGEST:
+        while running(Path(PROGRAM)) and time.monotonic() - start < LONGEST:
             time.sleep(0.1)
         seconds_of_ranks = time.monotonic() - start
         print(f"{name} cut off: mpirun ended with {run.returncode} after {seconds:.1f} s, "
@@ -110,6 +111,10 @@ class Hosts(unittest.TestCase):
         self.assertNotEqual(run.returncode, 0, said)
         self.assertLess(max(seconds, seconds_of_ranks), SECONDS_TO_END, said)
         self.assertEqual(record(results)["status"], "running", "it was finished before the cut")
+        daemon = Path(shutil.which("orted") or "orted")
+        while running(daemon):  # their ends are not timed, but the next run is to find nothing of them
+            self.assertLess(time.monotonic() - start, LONGEST, "the daemon of the host that was cut off does not end")
+            time.sleep(0.1)
         on_one_host(results, *LONGER, "--restart", "latest")
         self.assertIn("restarted_from", str(record(results)["details"]))
         self.assertEqual(record(results)["state_hash"], record(alone)["state_hash"])

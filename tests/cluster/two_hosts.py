@@ -35,6 +35,7 @@ class TwoHosts:
         call("ip", "link", "add", "switch", "type", "bridge")
         call("ip", "link", "set", "switch", "up")
         self._hosts: list[subprocess.Popen[bytes]] = []
+        self._session = 0
         self.addresses = [f"{NETWORK}.{number}" for number, _ in enumerate(NAMES, start=1)]
         for name, address in zip(NAMES, self.addresses):
             self._add(name, address)
@@ -62,10 +63,16 @@ class TwoHosts:
 
     def mpirun(self, ranks_each: int, *command: str | Path) -> subprocess.Popen[str]:
         """Starts mpirun on the first host, with ranks on both."""
+        # The daemon of a run that was cut off cleans up after itself a while later; a new one must not lose its folder to it,
+        # for then mpirun would wait for it for ever.
+        self._session += 1
+        session = self._folder / f"session_{self._session}"
+        session.mkdir()
         hosts = ",".join(f"{address}:{ranks_each}" for address in self.addresses)
         options = {
             "plm_rsh_agent": self._agent, "plm_rsh_no_tree_spawn": 1, "plm": "rsh", "pml": "ob1", "btl": "tcp,self,vader",
             "btl_tcp_if_include": f"{NETWORK}.0/24", "oob_tcp_if_include": f"{NETWORK}.0/24",
+            "orte_tmpdir_base": session,
             # A host that does not answer is given up after 9 s.
             "oob_tcp_keepalive_time": 5, "oob_tcp_keepalive_intvl": 2, "oob_tcp_keepalive_probes": 2,
         }
