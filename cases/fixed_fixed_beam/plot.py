@@ -107,13 +107,13 @@ def draw_contact_times(runs: dict[str, Run]) -> Figure | None:
     figure, axes = plt.subplots(figsize=(5.2, 3.2), layout="constrained")
     rigid = {NAMES[name]: found for name, run in runs.items() if (found := rigid_run(run)) is not None}
     # On the wall the film's middle lifts for a moment: only the last touch ends its contact.
-    for label, chosen, colour, time, until in (
-            ("beam", {NAMES[name]: run for name, run in runs.items()}, LINES[0], contact_time, "until the drop parts"),
-            ("rigid wall", rigid, LINES[5], quantities.contact_time, "until its last touch")):
+    for label, chosen, colour, time, given, until in (
+            ("beam", {NAMES[name]: run for name, run in runs.items()}, LINES[0], contact_time, impulse_time, "until the drop parts"),
+            ("rigid wall", rigid, LINES[5], quantities.contact_time, quantities.impulse_time, "until its last touch")):
         if not chosen:
             continue
         axes.plot(list(chosen), [time(run) * MILLI for run in chosen.values()], "o-", ms=4, color=colour, label=f"{label}: {until}")
-        axes.plot(list(chosen), [impulse_time(run) * MILLI for run in chosen.values()], "o:", ms=4, mfc="none",
+        axes.plot(list(chosen), [given(run) * MILLI for run in chosen.values()], "o:", ms=4, mfc="none",
                   color=colour, label=f"{label}: 99 % of the impulse")
     axes.axhline(PAPER_RIGID * MILLI, color="#1c222b", **PAPER, label="paper: rigid wall, 3.17 ms")
     axes.plot(list(PAPER_CONTACT), [time * MILLI for time in PAPER_CONTACT.values()], "*", ms=9, color="#1c222b",
