@@ -58,7 +58,7 @@ def moving_solid(snapshot: Snapshot) -> NDArray[np.bool_]:
     return solid & (snapshot["is_fixed"] == 0) if "is_fixed" in snapshot else solid
 
 
-def draw_frame(scene: Scene, snapshots: Sequence[Snapshot], time: float) -> Figure:
+def draw_frame(scene: Scene, snapshots: Sequence[Snapshot]) -> Figure:
     """One frame: a picture for each run, one above the other, at the snapshots given."""
     left, right, bottom, top = scene.bounds
     height = min(FRAME_WIDTH * (top - bottom) / (right - left), 4.5)
@@ -83,7 +83,7 @@ def draw_frame(scene: Scene, snapshots: Sequence[Snapshot], time: float) -> Figu
 def film(scene: Scene, runs: Sequence[Sequence[Snapshot]], times: Sequence[float]) -> Iterator[tuple[float, Figure]]:
     """Time and figure of every frame; each figure is closed when the next is asked for."""
     for time in times:
-        figure = draw_frame(scene, [nearest(snapshots, time) for snapshots in runs], time)
+        figure = draw_frame(scene, [nearest(snapshots, time) for snapshots in runs])
         yield time, figure
         plt.close(figure)
 
