@@ -1,7 +1,8 @@
 // Signals and clocks that jump at chosen moments, for LD_PRELOAD. On the rank INTERRUPT_RANK the signal
 // INTERRUPT_SIGNAL is raised just before the calls number INTERRUPT_NUMBER (from 0 on; several with commas between) of
 // the kind INTERRUPT_CALL: MPI_Init, partition (METIS), or write, fsync and rename of files whose path ends in
-// INTERRUPT_FILE. With CLOCK_JUMP, in s, the clock that tells the time of day is that much ahead from such a call on.
+// INTERRUPT_FILE. With INTERRUPT_WAIT, in s, such a call then waits for a signal that the program handles, as long as
+// that at most. With CLOCK_JUMP, in s, the clock that tells the time of day is that much ahead from such a call on.
 #include <dlfcn.h>
 #include <metis.h>
 #include <mpi.h>
@@ -36,6 +37,8 @@ void interrupt(std::string_view call) {
   if (call != setting("INTERRUPT_CALL") || !is_chosen(calls++)) return;
   clock_jump = std::atol(setting("CLOCK_JUMP"));
   if (const int signal = std::atoi(setting("INTERRUPT_SIGNAL")); signal != 0) ::kill(::getpid(), signal);
+  // Stopping and continuing does not end a sleep; a handler does.
+  ::sleep(static_cast<unsigned>(std::atoi(setting("INTERRUPT_WAIT"))));
 }
 
 bool is_on_its_rank() {

@@ -32,13 +32,13 @@ from running_program import (  # noqa: E402
 )
 
 # mpiexec that gets SIGTERM or SIGINT waits so many seconds (1 unless told), sends SIGTERM to the ranks, waits as long again
-# and kills them. It returns 1 then, whatever they return.
-PATIENT = ("--mca", "odls_base_sigkill_timeout", "2")
+# and kills them. It returns 1 then, whatever they return. Before all that it wakes ranks that are stopped.
+PATIENT = ("--mca", "odls_base_sigkill_timeout", "5")
 LONGEST_END = 30.0  # s
-# Checkpoints nearly all the time, so that the run is not over before.
-SLOWED = ("--set", "checkpoint.wall_interval=0.001")
 # Rank 0 waits, stopped, before it writes the second checkpoint.
 HELD = interrupted("fsync", "history.csv", by=signal.SIGSTOP, number=1)
+# Once it is woken, it waits for another signal, so that the run is not over before.
+HELD_ON = interrupted("fsync", "history.csv", by=signal.SIGSTOP, number=1, wait=60)
 STOPPING = (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2)
 
 
@@ -46,8 +46,8 @@ class InterruptionTest(ComparedTest):
     case_text = little_case(end=400e-6, snapshot_interval=80e-6, checkpoint_interval=50e-6) if LONG else little_case(
         end=80e-6, snapshot_interval=16e-6, checkpoint_interval=10e-6)
 
-    def start(self, *arguments: str, options: tuple[str, ...]) -> BackgroundRun:
-        return BackgroundRun("little.cfg", "--quiet", *arguments, ranks=3, directory=self.directory, options=options)
+    def start(self, options: tuple[str, ...]) -> BackgroundRun:
+        return BackgroundRun("little.cfg", "--quiet", ranks=3, directory=self.directory, options=options)
 
     def assert_stopped_well(self, why: str, error_text: str) -> int:
         """Returns the step at which it stopped."""
@@ -76,9 +76,8 @@ class InterruptionTest(ComparedTest):
 class Signals(InterruptionTest):
     def stop(self, number: signal.Signals, target: str) -> None:
         self.setUp()
-        # mpiexec wakes ranks that are stopped before it ends them.
         ends_mpiexec = target == "mpiexec" and number in (signal.SIGTERM, signal.SIGINT)
-        with self.start(*(SLOWED if ends_mpiexec else ()), options=(PATIENT if ends_mpiexec else AT_ONCE) + HELD) as running:
+        with self.start(options=PATIENT + HELD_ON if ends_mpiexec else AT_ONCE + HELD) as running:
             rank, held = running.rank(2), running.held_rank()
             start = time.monotonic()
             send(rank if target == "rank 2" else running.process.pid, number)

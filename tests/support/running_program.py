@@ -70,10 +70,11 @@ def preloaded(libraries: str, **settings: str | int) -> tuple[str, ...]:
     return tuple(word for name, value in words.items() for word in ("-x", f"{name}={value}"))
 
 
-def interrupted(call: str, file: str = "", *, by: int, number: int | str = 0, rank: int = 0) -> tuple[str, ...]:
-    """mpiexec's options that make a rank send itself a signal (tests/fault/interrupted_calls.cpp)."""
+def interrupted(call: str, file: str = "", *, by: int, number: int | str = 0, rank: int = 0, wait: int = 0) -> tuple[str, ...]:
+    """mpiexec's options that make a rank send itself a signal, and then wait so many s at most for another that it handles
+    (tests/fault/interrupted_calls.cpp)."""
     return preloaded("SPHDROP_INTERRUPTED_CALLS", INTERRUPT_CALL=call, INTERRUPT_FILE=file, INTERRUPT_SIGNAL=int(by),
-                     INTERRUPT_NUMBER=number, INTERRUPT_RANK=rank)
+                     INTERRUPT_NUMBER=number, INTERRUPT_RANK=rank, INTERRUPT_WAIT=wait)
 
 
 def hashes_in(output: str) -> list[str]:
