@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "config/effective_case.hpp"
 #include "decomposition/stop_signal.hpp"
+#include "time_integration/due_time.hpp"
 
 namespace sphdrop {
 
@@ -18,10 +18,6 @@ namespace {
 constexpr double wish_checkpoint = 1, wish_stop_for_walltime = 2, wish_stop_for_signal = 1000;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double next_multiple(double time, double interval) {
-  return interval > 0 ? interval * (std::floor(time / interval * (1 + 1e-12)) + 1.0) : infinity;
-}
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "diagnostics/frequency.hpp"
 #include "diagnostics/theory.hpp"
 #include "simulation/snapshot_table.hpp"
+#include "time_integration/due_time.hpp"
 
 namespace sphdrop {
 
@@ -20,11 +21,6 @@ std::vector<HistoryColumn> history_columns() {
   for (const ObservedQuantity& q : observed_quantities())
     columns.push_back({std::string(q.name), std::string(q.unit), std::string(q.description)});
   return columns;
-}
-
-// Due times are multiples of the interval, so that they do not depend on when the run was started or interrupted.
-double next_multiple(double time, double interval) {
-  return interval * (std::floor(time / interval * (1 + 1e-12)) + 1.0);
 }
 
 std::optional<double> if_known(double value) {
@@ -94,7 +90,7 @@ void Recorder::restore(const Checkpoint& checkpoint) {
   const double now = simulation_.time();
   const auto due_again = [&](double stored, double old_interval, double interval) {
     if (interval == old_interval) return stored;
-    return interval > 0 ? std::max(0.0, next_multiple(now, interval)) : std::numeric_limits<double>::infinity();
+    return std::max(0.0, next_multiple(now, interval));
   };
   next_row_ = due_again(due[0], due[2], output.history_interval);
   next_snapshot_ = due_again(due[1], due[3], output.snapshot_interval);
@@ -134,8 +130,7 @@ void Recorder::observe() {
   }
   if (time >= next_snapshot_) {
     write_snapshot();
-    next_snapshot_ = c.output.snapshot_interval > 0 ? next_multiple(time, c.output.snapshot_interval)
-                                                    : std::numeric_limits<double>::infinity();
+    next_snapshot_ = next_multiple(time, c.output.snapshot_interval);
   }
   simulation_.timer().lap(Phase::output);
 }
