@@ -53,7 +53,10 @@ class Row:
 
     @property
     def modern_goal_state(self) -> str:
-        return self._goal_state(self.modern)
+        """Only of goals that theory sets: others are of what the paper's scheme or codes like it give."""
+        e = self.expected
+        is_theory = math.isnan(e.modern_theory) and abs(e.goal - e.theory) <= e.goal_tolerance
+        return self._goal_state(self.modern) if is_theory else ""
 
     def _goal_state(self, measured: float) -> str:
         if math.isnan(self.expected.goal) or math.isnan(measured):
@@ -72,15 +75,22 @@ class Row:
     @property
     def error(self) -> float:
         """Relative to the reference; NaN without one, or where it is zero."""
-        return self._error(self.measured)
+        return _relative_error(self.measured, self.reference[1])
+
+    @property
+    def modern_reference(self) -> tuple[str, float]:
+        """The same of mode modern, which meets no goal that is not theory's."""
+        if not math.isnan(self.expected.modern_theory):
+            return "theory", self.expected.modern_theory
+        return self.reference if self.reference[0] != "goal" else ("", math.nan)
 
     @property
     def modern_error(self) -> float:
-        return self._error(self.modern)
+        return _relative_error(self.modern, self.modern_reference[1])
 
-    def _error(self, measured: float) -> float:
-        value = self.reference[1]
-        return (measured - value) / abs(value) if value != 0 else math.nan
+
+def _relative_error(measured: float, value: float) -> float:
+    return (measured - value) / abs(value) if value != 0 else math.nan
 
 
 @dataclass(frozen=True)

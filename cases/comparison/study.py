@@ -25,7 +25,8 @@ runs.toml, where --set arguments of the program stand in tables:
 
 A run in mode modern is called U0_0.8_modern, and is measured and told of under the name of its twin U0_0.8: measure() is asked
 twice, for the runs of the paper's scheme and for those in mode modern, and both values stand in one row. expected.csv records
-the second in its columns modern and modern_tolerance, which a study without such runs leaves out.
+the second in its columns modern and modern_tolerance, which a study without such runs leaves out. Where theory has another
+value for mode modern, as a liquid of another viscosity swings otherwise, a column modern_theory says it.
 """
 
 from __future__ import annotations
@@ -60,6 +61,7 @@ UNITS = {
 
 EXPECTED_COLUMNS = ("level", "quantity", "unit", "theory", "paper", "goal", "goal_tolerance", "ours", "tolerance", "description")
 MODERN_COLUMNS = ("modern", "modern_tolerance")
+MODERN_THEORY = "modern_theory"
 MODERN = "_modern"  # how the names of runs in mode modern end
 
 
@@ -97,6 +99,7 @@ class Expected:
     description: str
     modern: float = math.nan            # what it gave in mode modern
     modern_tolerance: float = math.nan
+    modern_theory: float = math.nan     # where it is not that of the paper's scheme
 
     def from_si(self, value: float) -> float:
         return value / UNITS[self.unit]
@@ -261,7 +264,7 @@ def _expected_row(row: Mapping[str, str | None], place: str) -> Expected:
     if not row["quantity"]:
         raise StudyError(f"{place}: names no quantity")
     numbers = {}
-    for key in ("theory", "paper", "goal", "goal_tolerance", "ours", "tolerance", *MODERN_COLUMNS):
+    for key in ("theory", "paper", "goal", "goal_tolerance", "ours", "tolerance", *MODERN_COLUMNS, MODERN_THEORY):
         try:
             numbers[key] = float(row[key]) if (row.get(key) or "").strip() else math.nan
         except ValueError:

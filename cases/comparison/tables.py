@@ -35,7 +35,7 @@ def error_text(row: Row, is_modern: bool = False) -> str:
     error = row.modern_error if is_modern else row.error
     if math.isnan(error):
         return ""
-    name, _ = row.reference
+    name, _ = row.modern_reference if is_modern else row.reference
     return f"{100 * error:+.2g} %" + (f" ({name})" if name != "theory" else "")
 
 
@@ -59,7 +59,7 @@ def quantity_cells(row: Row) -> list[str]:
     """Those under QUANTITY_HEADINGS."""
     e = row.expected
     digits = 5 if row.is_expected or e.unit != "%" else 2
-    return [e.quantity, e.unit, number(e.theory), number(e.paper), with_tolerance(e.goal, e.goal_tolerance),
+    return [e.quantity, e.unit, both(number(e.theory), number(e.modern_theory)), number(e.paper), with_tolerance(e.goal, e.goal_tolerance),
             number(row.measured, digits), number(row.modern, digits), error_text(row), error_text(row, is_modern=True),
             with_tolerance(e.ours, e.tolerance), with_tolerance(e.modern, e.modern_tolerance),
             both(CHECK_WORDS[row.check], CHECK_WORDS[row.modern_check]), both(row.goal_state, row.modern_goal_state)]

@@ -7,6 +7,7 @@ import re
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -91,6 +92,11 @@ class ModernRows(unittest.TestCase):
         found = Row(row, 0.34, modern=0.2525)
         self.assertEqual((found.check, found.modern_check, found.goal_state, found.modern_goal_state), ("pass", "pass", "not met", "met"))
         self.assertAlmostEqual(found.modern_error, 0.01)
+        for other, state in ((expected(theory=0.25, goal=0.28, goal_tolerance=0.01), ""), (expected(goal=0.25, goal_tolerance=0.01), ""),
+                             (expected(theory=0.25, goal=0.25, goal_tolerance=0.001), "not met")):
+            self.assertEqual(Row(other, 0.25, modern=0.252).modern_goal_state, state, "only theory's goals are those of mode modern")
+        self.assertTrue(math.isnan(Row(expected(goal=0.25, goal_tolerance=0.01), 0.25, modern=0.25).modern_error))
+        self.assertAlmostEqual(Row(replace(row, modern_theory=0.5), 0.34, modern=0.51).modern_error, 0.02)
         self.assertEqual(Row(row, 0.34, modern=0.34).modern_check, "fail")
         self.assertEqual(Row(row, 0.252, modern=0.252).check, "fail")
 
