@@ -5,7 +5,8 @@ scheme into the column `ours`, those in mode modern into the column `modern`.
     /usr/bin/python3 cases/comparison/record.py [STUDY ...] [--level paper] [--results results/comparison] [--only-empty]
                                                 [--mode both]
 
-Every other cell stays as it is; an empty tolerance becomes a two hundredth of the value. Look at the difference before you
+Every other cell stays as it is; an empty tolerance becomes that of the paper's scheme in the same row or, where there is none,
+a two hundredth of the value. Look at the difference before you
 keep it: from then on it is what runs are checked against.
 """
 
@@ -45,7 +46,7 @@ def record(path: Path, level: str, measured: Mapping[str, float], only_empty: bo
         value = measured[row["quantity"]] / UNITS[row["unit"]]
         before = dict(row)
         row[column] = f"{value:.6g}"
-        row[tolerance] = row[tolerance].strip() or f"{SHARE * abs(value):.2g}"
+        row[tolerance] = row[tolerance].strip() or (mode == "modern" and row["tolerance"].strip()) or f"{SHARE * abs(value):.2g}"
         changed += row != before
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, names, lineterminator="\n")

@@ -12,12 +12,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from comparison.beam_figures import MILLI, Gallery, history_lines, strip  # noqa: E402
+from comparison.beam_frequency import first_mode  # noqa: E402
 from comparison.beam_quantities import (  # noqa: E402
-    case_of, deepest_deflection, history_at, impulse_time, largest_gap_of_run, leaving_time, section_displacement, theory_of)
+    case_of, deepest_deflection, history_at, impulse_time, largest_gap_of_run, largest_row_strain, leaving_time,
+    section_displacement, theory_of)
 from comparison.exact_beam import Array  # noqa: E402
 from comparison.standalone import standalone_main  # noqa: E402
 from comparison.study import Drawing, Results  # noqa: E402
-from figures import LINES, STYLE  # noqa: E402
+from figures import LINES, MODERN, STYLE  # noqa: E402
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
@@ -90,7 +92,9 @@ def measure(results: Results) -> dict[str, float]:
         deepest_at, depth = deepest_deflection(run)
         leaves = leaving_time(run)
         found |= {f"largest_deflection_{name}": depth, f"deepest_at_{name}": deepest_at, f"leaves_at_{name}": leaves,
-                  f"impulse_time_{name}": impulse_time(run), f"largest_gap_{name}": largest_gap_of_run(run)}
+                  f"impulse_time_{name}": impulse_time(run), f"largest_gap_{name}": largest_gap_of_run(run),
+                  f"gap_over_strain_{name}": (largest_gap_of_run(run) - 1) / largest_row_strain(run),
+                  f"frequency_ratio_{name}": theory_of(run).period / first_mode(run).period}
         if name.startswith("free_end"):
             found |= {f"relative_deflection_{name}": depth / length_of(run),
                       f"centre_beyond_tip_at_leaving_{name}": float(np.interp(leaves, *beyond_tip(run))),
@@ -121,6 +125,15 @@ def draw_free_end(results: Results) -> Figure | None:
         if math.isfinite(leaves):
             left.plot(leaves * MILLI, -history_at(run, "deflection", leaves) / length_of(run), "o", ms=4, color=colour)
             right.plot(leaves * MILLI, np.interp(leaves, times, beyond) * MILLI, "o", ms=4, color=colour)
+    for name, colour in zip(runs, LINES):
+        if name in results.modern:
+            run = results.modern[name]
+            times, beyond = beyond_tip(run)
+            left.plot(run.history["time"] * MILLI, -run.history["deflection"] / length_of(run), color=colour, **MODERN)
+            right.plot(times * MILLI, beyond * MILLI, color=colour, **MODERN)
+    if results.modern.matching("free_end"):
+        right.plot([], [], color="#5b6470", **MODERN, label="mode modern")
+        right.legend()
     for theory in sorted({round(theory_of(run).relative_deflection, 9) for run in runs.values()}):
         left.axhline(theory, color="#5b6470", lw=1, dashes=(4, 2), label=rf"Eqs 46, 47: $\chi$ = {theory:.3f}")
     left.axhline(PAPER_CHI, color="#1c222b", lw=1, dashes=(1, 1.5), label=rf"paper: $\chi$ about {PAPER_CHI}")
@@ -132,17 +145,19 @@ def draw_free_end(results: Results) -> Figure | None:
 
 
 def draw_mid_span(results: Results) -> Figure | None:
-    runs = results.matching("mid_span")
+    runs = list(results.matching("mid_span").values())
     if not runs:
         return None
+    modern = list(results.modern.matching("mid_span").values())
+    runs += modern
     figure, axes = plt.subplots(2, len(runs), figsize=(max(4.6, 2.9 * len(runs)), 4.6), squeeze=False, sharex="col",
                                 layout="constrained", height_ratios=[1.5, 1])
-    for column, run in enumerate(runs.values()):
+    for column, run in enumerate(runs):
         above, below = axes[:, column]
         times, middle = middle_deflection(run)
         above.plot(times * MILLI, middle * MILLI, color=LINES[0], label="mid-span, under the drop")
         history_lines(above, run, "deflection", MILLI, color=LINES[1], label="tip")
-        above.set_title(label_of(run))
+        above.set_title(f"{label_of(run).split(',')[0]}, mode modern" if run in modern else label_of(run))
         when, middle_rate, tip_rate = rates(run)
         if when.size:
             below.plot(when * MILLI, middle_rate, color=LINES[0])
@@ -169,6 +184,12 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
             times = np.array([0.1, 0.3, 0.5, 0.7, 0.85, 1.0, 1.3, 1.7]) * end
             gallery.add("strip_free_end", strip(run, times), "The drop on the free end: the beam gives way and the drop rolls off.",
                         "Fig. 22")
+        if "free_end" in results.modern:
+            run = results.modern["free_end"]
+            leaves = leaving_time(run)
+            end = leaves if math.isfinite(leaves) else run.history["time"][-1]
+            gallery.add("strip_free_end_modern", strip(run, np.array([0.1, 0.3, 0.5, 0.7, 0.85, 1.0, 1.3, 1.7]) * end),
+                        "The same in mode modern.", "Fig. 22")
         gallery.add("free_end", draw_free_end(results), "Deflection of the free end over the length, and how far the drop's mass "
                     "centre lies beyond the tip: positive when it leaves is a drop that rolled off.", "Fig. 22")
         if "mid_span" in results:

@@ -59,11 +59,11 @@ class Record(unittest.TestCase):
             path.write_text(self.TEXT, encoding="utf-8")
             self.assertEqual(record(path, "paper", {}, mode="modern"), 0)
             self.assertEqual(path.read_text(encoding="utf-8"), self.TEXT, "nothing measured, nothing changed")
-            self.assertEqual(record(path, "paper", {"depth": 2.52e-4}, mode="modern"), 1)
+            self.assertEqual(record(path, "paper", {"depth": 2.52e-4, "time": 1.2e-3}, mode="modern"), 2)
             lines = path.read_text(encoding="utf-8").splitlines()
         self.assertEqual(lines[0].split(",")[-5:], ["ours", "tolerance", "modern", "modern_tolerance", "description"])
         self.assertEqual(lines[1], 'paper,depth,mm,0.24,,,,,,0.252,0.0013,"free end, deepest"')
-        self.assertEqual(lines[2], "paper,time,ms,,1.3,,,1.5,0.2,,,when")
+        self.assertEqual(lines[2], "paper,time,ms,,1.3,,,1.5,0.2,1.2,0.2,when", "the tolerance of the paper's scheme")
 
     def test_can_leave_what_is_there(self) -> None:
         count, text = self.recorded(only_empty=True)
