@@ -12,7 +12,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "cases"))
-from comparison.cost import in_words, particle_steps, rate_of, reached_time  # noqa: E402
+from comparison.cost import CELL_SHARE, in_words, particle_steps, rate_of, reached_time  # noqa: E402
 from comparison.ledgers import Ledger  # noqa: E402
 from comparison.markdown import inline, to_html  # noqa: E402
 from comparison.measure import ledger_rows, rows_of  # noqa: E402
@@ -200,6 +200,12 @@ class Costs(unittest.TestCase):
         cantilever = {"resolution": {"spacing": 2.5e-5}, "time": {"end": 4e-3}, "drop": {"velocity": [0, -0.8]},
                       "solid": {"kind": "cantilever", "length": 8e-3}}
         self.assertAlmostEqual(particle_steps(cantilever) / (4457 * 667736), 1.0, delta=0.01)
+        # In mode modern 292094 steps for 7 ms: four times as long a step.
+        modern = {**cantilever, "mode": "modern", "time": {"end": 7e-3}}
+        self.assertAlmostEqual(particle_steps(modern) / ((1257 + CELL_SHARE * 3200) * 292094), 1.0, delta=0.01)
+        # Where the liquid's sound sets it, twice as long: 134540 steps of the soft cantilever for 16 ms.
+        soft = {**modern, "time": {"end": 16e-3}, "solid": {"kind": "cantilever", "length": 10e-3, "youngs_modulus": 6e6}}
+        self.assertAlmostEqual(particle_steps(soft) / ((1257 + CELL_SHARE * 4000) * 134540), 1.0, delta=0.02)
         drop = {"resolution": {"spacing": 2.5e-5}, "time": {"end": 12e-3, "sound_cfl": 0.2}, "drop": {}}
         self.assertAlmostEqual(particle_steps(drop) / (1257 * 100147), 1.0, delta=0.01)
         plate = {"resolution": {"spacing": 2e-3}, "time": {"end": 1.0}, "drop": {"shape": "none"},
