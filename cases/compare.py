@@ -156,10 +156,13 @@ def tell(comparison: Comparison, folder: Path) -> None:
         for problem in study.problems:
             print(f"problem: {study.study.name}: {problem}")
         for row in study.rows:
-            if row.check in ("fail", "missing"):
-                e = row.expected
-                value = f"{number(row.measured, 6)} {e.unit}, recorded {number(e.ours, 6)} ± {number(e.tolerance, 2)}"
-                print(f"{row.check.upper()}: {study.study.name}: {e.quantity}" + (f" = {value}" if row.check == "fail" else ""))
+            e = row.expected
+            for check, mode, measured, recorded, tolerance in (
+                    (row.check, "", row.measured, e.ours, e.tolerance),
+                    (row.modern_check, " in mode modern", row.modern, e.modern, e.modern_tolerance)):
+                if check in ("fail", "missing"):
+                    value = f"{number(measured, 6)} {e.unit}, recorded {number(recorded, 6)} ± {number(tolerance, 2)}"
+                    print(f"{check.upper()}: {study.study.name}: {e.quantity}{mode}" + (f" = {value}" if check == "fail" else ""))
     print(counts_line(comparison))
     print(f"report: {folder / 'report.html'}")
 

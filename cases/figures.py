@@ -26,6 +26,7 @@ from sphdrop_reader import ResultError, Run
 
 MILLI = 1e3
 LINES = ["#1763a8", "#c8442f", "#2f8f5b", "#8a5fb0", "#d69a1e", "#5b6470", "#1ca3a3", "#a8326f"]
+MODERN = {"linestyle": (0, (5, 1.6)), "linewidth": 1.1}  # a run in mode modern, in the colour of its twin
 STYLE = {
     "font.size": 9, "axes.titlesize": 9, "axes.labelsize": 9, "legend.fontsize": 7.5, "legend.frameon": False,
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#e3e6ea", "lines.linewidth": 1.3,

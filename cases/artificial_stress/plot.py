@@ -106,6 +106,8 @@ def measure(results: Results) -> dict[str, float]:
 
 
 def label(run: Run) -> str:
+    if tomllib.loads(run.case_text).get("mode") == "modern":
+        return "mode modern"
     return rf"$\epsilon$ = {tomllib.loads(run.case_text)['solid']['artificial_stress_coefficient']:g}"
 
 
@@ -129,10 +131,16 @@ def draw_clamp(axes: Axes, run: Run, lattice: Lattice, snapshot: Snapshot) -> El
     return dots
 
 
+def shown_runs(results: Results) -> list[Run]:
+    """The coefficients, and then mode modern, whose beam has no artificial stress."""
+    return [*results.values(), *results.modern.values()]
+
+
 def draw_clamps(results: Results) -> Figure:
-    figure, grid = plt.subplots(len(results), 1, figsize=(7.2, 2.15 * len(results) + 0.3), sharex=True, squeeze=False,
+    runs = shown_runs(results)
+    figure, grid = plt.subplots(len(runs), 1, figsize=(7.2, 2.15 * len(runs) + 0.3), sharex=True, squeeze=False,
                                 layout="constrained")
-    for axes, run in zip(grid[:, 0], results.values()):
+    for axes, run in zip(grid[:, 0], runs):
         dots = draw_clamp(axes, run, prepare(run), run.snapshots.at(PICTURE_TIME))
     grid[-1, 0].set_xlabel("$x$  (mm)")
     figure.colorbar(dots, ax=grid, shrink=0.5, label="widest gap to a neighbour / spacing")
@@ -141,7 +149,7 @@ def draw_clamps(results: Results) -> Figure:
 
 def draw_growth(results: Results) -> Figure:
     figure, (gap, bent, work) = plt.subplots(1, 3, figsize=(7.6, 2.7), layout="constrained")
-    for run, colour in zip(results.values(), LINES):
+    for run, colour in zip(shown_runs(results), LINES):
         lattice = prepare(run)
         positions = [snapshot["position"][beam(snapshot)] for snapshot in run.snapshots]
         times = run.snapshots.times * MILLI
@@ -163,7 +171,8 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
         return []
     pictures = (
         ("clamp.png", draw_clamps,
-         "The clamped end with different coefficients of the artificial stress; the clamp's particles are grey.", "Fig. 4"),
+         "The clamped end with different coefficients of the artificial stress and in mode modern; the clamp's particles are grey.",
+         "Fig. 4"),
         ("growth.png", draw_growth, "Gaps and zigzag over time, and the energy that the artificial stress puts in.", ""),
     )
     with plt.rc_context(STYLE):

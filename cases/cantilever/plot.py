@@ -22,7 +22,7 @@ from comparison.convergence import Fit, fit_order  # noqa: E402
 from comparison.standalone import standalone_main  # noqa: E402
 from comparison.study import Drawing, Results  # noqa: E402
 from comparison.timoshenko import TimoshenkoBeam  # noqa: E402
-from figures import LINES, STYLE  # noqa: E402
+from figures import LINES, MODERN, STYLE  # noqa: E402
 from modal_beam import beam_of, modal_deflection  # noqa: E402
 
 import matplotlib.pyplot as plt  # noqa: E402
@@ -88,7 +88,7 @@ def measure(results: Results) -> dict[str, float]:
             if speed != 0.8:
                 continue
             exact = lowest_point(run.history["time"], modal_deflection(run, theory=TimoshenkoBeam))[1]
-            found |= {f"deepest_at_{name}": time, f"widest_at_{name}": quantities.largest_width(run)[0],
+            found |= {f"deflection_over_exact_{name}": depth / -exact, f"deepest_at_{name}": time, f"widest_at_{name}": quantities.largest_width(run)[0],
                       f"impulse_time_{name}": impulse_time(run), f"spread_{name}": basic(run)["spread"],
                       f"leaves_at_{name}": leaving_time(run),
                       f"exact_beam_deflection_{name}": -exact, f"largest_gap_{name}": largest_gap_of_run(run)}
@@ -114,11 +114,16 @@ def draw_lengths(results: Results) -> Figure | None:
     for (length, run), colour in zip(runs.items(), LINES):
         history_lines(left, run, "deflection", MILLI, color=colour, label=f"$L$ = {length} mm")
         history_lines(right, run, "drop_width", MILLI, color=colour, label=f"$L$ = {length} mm")
+        if f"L{length}_U0.8" in results.modern:
+            for axes, column in ((left, "deflection"), (right, "drop_width")):
+                history_lines(axes, results.modern[f"L{length}_U0.8"], column, MILLI, color=colour, **MODERN)
         depth = theory_of(run).largest_deflection * MILLI
         left.axhline(-depth, xmin=0.97, color=colour, lw=2, solid_capstyle="butt")
         for axes, paper in ((left, PAPER_DEEPEST), (right, PAPER_WIDEST)):
             if length in paper:
                 axes.axvline(paper[length], color=colour, **PAPER)
+    if results.modern:
+        left.plot([], [], color="#5b6470", **MODERN, label="mode modern")
     left.plot([], [], color="#5b6470", lw=2, label="Eq 46, at the right")
     left.plot([], [], color="#5b6470", **PAPER, label="deepest in the paper")
     right.plot([], [], color="#5b6470", **PAPER, label="widest in the paper")
@@ -141,6 +146,8 @@ def draw_speeds(results: Results) -> Figure | None:
     for panel, length in zip(axes.flat, lengths):
         for speed, run in of_length(results, length).items():
             history_lines(panel, run, "deflection", MILLI, color=LINES[SPEEDS.index(speed)], label=f"{speed:.1f} m/s")
+        for speed, run in of_length(results.modern, length).items():
+            history_lines(panel, run, "deflection", MILLI, color=LINES[SPEEDS.index(speed)], **MODERN)
         panel.set(title=f"$L$ = {length} mm", xlabel="time  (ms)", ylabel=r"$\delta$  (mm)", xlim=(0, None))
     axes[0, 0].legend(title="$U_0$", loc="upper left", title_fontsize=7.5, ncols=2)
     return figure
@@ -162,6 +169,11 @@ def draw_theory(results: Results) -> Figure | None:
         middle.plot([length] * len(periods), np.array(periods) * MILLI, "o", ms=4, color=colour, mfc="none")
         theory = theory_of(next(iter(runs.values()))).period
         right.plot(speeds, theory / np.array(periods), "o-", ms=4, color=colour, label=f"{length} mm")
+        modern = of_length(results.modern, length)
+        modern_periods = np.array([first_mode(run).period for run in modern.values()])
+        left.plot(list(modern), [deepest_deflection(run)[1] * MILLI for run in modern.values()], "D", ms=4, mfc="none", color=colour)
+        middle.plot([length] * len(modern), modern_periods * MILLI, "D", ms=4, mfc="none", color=colour)
+        right.plot(list(modern), theory / modern_periods, "D", ms=4, mfc="none", color=colour, **MODERN)
     if not left.lines:
         plt.close(figure)
         return None
@@ -171,9 +183,11 @@ def draw_theory(results: Results) -> Figure | None:
     middle.plot(lengths * MILLI, first * (lengths / beam.length) ** 2 * MILLI, color="#5b6470", lw=1, dashes=(4, 2),
                 label="Eq 44")
     left.plot([], [], color="#5b6470", lw=1, dashes=(4, 2), label="Eq 46")
+    if results.modern:
+        left.plot([], [], "D", ms=4, mfc="none", color="#5b6470", label="mode modern")
     left.set(xlabel="$U_0$  (m/s)", ylabel=r"$\delta_\mathrm{max}$  (mm)", xlim=(0, 1.08), ylim=(0, None))
     middle.set(xlabel="$L$  (mm)", ylabel="period of the first mode  (ms)", ylim=(0, None))
-    right.set(xlabel="$U_0$  (m/s)", ylabel=r"frequency / theory ($\tau_0/\tau$)", xlim=(0.45, 1.05), ylim=(0.7, 1.02))
+    right.set(xlabel="$U_0$  (m/s)", ylabel=r"frequency / theory ($\tau_0/\tau$)", xlim=(0.45, 1.05), ylim=(0.7, 1.05))
     right.axhline(1.0, color="#5b6470", lw=1, dashes=(4, 2))
     for axes in (left, middle, right):
         axes.legend()
@@ -189,23 +203,31 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
                 gallery.add(f"strip_L{length}", strip(results[f"L{length}_U0.8"], [t / MILLI for t in times[length]]),
                             f"L = {length} mm, U0 = 0.8 m/s: the liquid's speed and the beam's stress along it.", figure)
         gallery.add("lengths", draw_lengths(results), "Deflection of the free end and width of the drop for the lengths, U0 = 0.8 "
-                    "m/s. Dotted: when the paper has the beam deepest and the drop widest.", "Figs 19-21")
-        gallery.add("speeds", draw_speeds(results), "Deflection of the free end for the speeds.", "Figs 19-21")
+                    "m/s. Dashed: mode modern. Dotted: when the paper has the beam deepest and the drop widest.", "Figs 19-21")
+        gallery.add("speeds", draw_speeds(results), "Deflection of the free end for the speeds; dashed: mode modern.",
+                    "Figs 19-21")
         gallery.add("theory", draw_theory(results), "Largest deflection over the speed with Eq 46; period of the first mode over "
                     "the length with Eq 44; frequency over the speed.", "Figs 19-21")
         checks = {f"$L$ = {length} mm": results[f"L{length}_U0.8"] for length in LENGTHS if f"L{length}_U0.8" in results}
+        modern_checks = {f"$L$ = {length} mm, mode modern": results.modern[f"L{length}_U0.8"] for length in LENGTHS
+                         if f"L{length}_U0.8" in results.modern}
         gallery.add("modal_check", modal_checks(checks), "The exact beams under each run's recorded contact force: what differs is "
                     "the particles' beam, not the coupling.")
+        gallery.add("modal_check_modern", modal_checks(modern_checks), "The same of the runs in mode modern.")
         labels = {"largest_deflection": (r"$\delta_\mathrm{max}$  (mm)", MILLI), "contact_time": ("contact time  (ms)", MILLI),
                   "impulse_time": ("99 % of the impulse  (ms)", MILLI), "spread": (r"$D_\mathrm{max}/D_0$", 1.0),
                   "period": ("period of the first mode  (ms)", MILLI)}
-        series = {}
+        series, modern_series = {}, {}
+        modern = [results.modern[name] for name in CONVERGENCE if name in results.modern]
+        modern_values = [basic(run) | {"period": first_mode(run).period} for run in modern]
         for name, (spacings, values, _) in convergence(results).items():
             label, scale = labels[name]
             drawn = [value * scale for value in values]
             series[label] = (spacings, drawn, fit_order(spacings, drawn))
+            if modern:
+                modern_series[label] = ([spacing_of(run) for run in modern], [found[name] * scale for found in modern_values])
         rows = ", ".join(str(rows_across(results[name])) for name in CONVERGENCE if name in results)
-        gallery.add("convergence", convergence_panels(series), f"{rows} rows across the beam, L = 8 mm, U0 = 0.8 m/s. Red: the "
+        gallery.add("convergence", convergence_panels(series, modern_series), f"{rows} rows across the beam, L = 8 mm, U0 = 0.8 m/s. Red: the "
                     "limit that the fit names.")
         words = {"largest_deflection": r"$\delta_\mathrm{max}$", "contact_time": "contact time",
                  "impulse_time": "99 % of the impulse", "spread": r"$D_\mathrm{max}$"}

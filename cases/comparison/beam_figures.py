@@ -72,8 +72,10 @@ def modal_checks(runs: Mapping[str, Run]) -> Figure | None:
     return figure
 
 
-def convergence_panels(series: Mapping[str, tuple[Sequence[float], Sequence[float], Fit]]) -> Figure | None:
-    """A panel for each quantity: label -> spacings in m, values as they are to be drawn, and their fit with its limit."""
+def convergence_panels(series: Mapping[str, tuple[Sequence[float], Sequence[float], Fit]],
+                       modern: Mapping[str, tuple[Sequence[float], Sequence[float]]] | None = None) -> Figure | None:
+    """A panel for each quantity: label -> spacings in m, values as they are to be drawn, and their fit with its limit; and
+    spacings and values of mode modern."""
     if not series:
         return None
     columns = min(len(series), 3)
@@ -93,6 +95,10 @@ def convergence_panels(series: Mapping[str, tuple[Sequence[float], Sequence[floa
         else:
             panel.plot(spacing, values, color=LINES[0], lw=1, dashes=(3, 2))
             panel.set_title(textwrap.fill(fit.text, 36), fontsize=7)
+        if modern and label in modern:
+            panel.plot(np.asarray(modern[label][0]) * MICRO, modern[label][1], "D", color=LINES[2], mfc="none", ms=4,
+                       label="mode modern")
+            panel.legend()
         panel.set(xlabel=r"spacing $d$  ($\mathrm{\mu}$m)", ylabel=label, xlim=(0, None))
     return figure
 

@@ -177,6 +177,21 @@ def section_displacement(run: Run, place: float) -> tuple[Array, Array]:
     return BeamSections(run).displacement_at(place)
 
 
+def largest_row_strain(run: Run) -> float:
+    """The largest strain along the beam's outermost rows over all snapshots, by its centre line: stretch + curvature
+    (H - d)/2, both over a stretch as long as the beam is thick. What neighbours part beyond it is not bending."""
+    sections, spacing, rows = BeamSections(run), spacing_of(run), rows_across(run)
+    reference = np.stack([sections.places, np.zeros_like(sections.places)], axis=-1)
+    largest = 0.0
+    for snapshot in run.snapshots:
+        step = np.diff(reference + sections.displacement(snapshot), axis=0)
+        angle = np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
+        curvature = (angle[rows:] - angle[:-rows]) / (rows * spacing)
+        stretch = np.convolve(np.hypot(*step.T) / spacing - 1, np.full(rows + 1, 1 / (rows + 1)), "valid")
+        largest = max(largest, float((stretch + np.abs(curvature) * 0.5 * (rows - 1) * spacing).max()))
+    return largest
+
+
 def reference_neighbours(position: Array, spacing: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Pairs of neighbours along the rows and columns of a square lattice [N, 2]."""
     cell = np.rint((position - position.min(axis=0)) / spacing).astype(np.int64)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from datetime import datetime
 
@@ -16,27 +17,51 @@ class Row:
     """A quantity of a study; numbers are in the unit of `expected`, NaN where there is none."""
 
     expected: Expected
-    measured: float
+    measured: float             # of the paper's scheme
     is_expected: bool = True    # it stands in expected.csv
     lacks_runs: bool = False    # not measured, but runs of the study are not there
+    modern: float = math.nan    # the same of the runs in mode modern
+    lacks_modern: bool = False  # some of those are not there
 
     @property
     def check(self) -> str:
         """Against what was recorded: pass, fail, missing (a failure, too), not run, or nothing."""
+        e = self.expected
+        if self.is_expected and math.isnan(self.measured) and not self.lacks_runs and math.isnan(e.ours) and not math.isnan(e.modern):
+            return ""  # only mode modern has it
+        return self._check(self.measured, e.ours, e.tolerance, self.lacks_runs)
+
+    @property
+    def modern_check(self) -> str:
+        """The same of mode modern; nothing where nothing was recorded of it."""
+        e = self.expected
+        return "" if math.isnan(e.modern) else self._check(self.modern, e.modern, e.modern_tolerance, self.lacks_modern)
+
+    def _check(self, measured: float, recorded: float, tolerance: float, lacks_runs: bool) -> str:
         if not self.is_expected:
             return ""
-        if math.isnan(self.measured):
-            return "not run" if self.lacks_runs else "missing"
-        if math.isnan(self.expected.ours):
+        if math.isnan(measured):
+            return "not run" if lacks_runs else "missing"
+        if math.isnan(recorded):
             return ""
-        return "pass" if abs(self.measured - self.expected.ours) <= self.expected.tolerance else "fail"
+        return "pass" if abs(measured - recorded) <= tolerance else "fail"
 
     @property
     def goal_state(self) -> str:
         """met, not met, or nothing where there is no goal or no value."""
-        if math.isnan(self.expected.goal) or math.isnan(self.measured):
+        return self._goal_state(self.measured)
+
+    @property
+    def modern_goal_state(self) -> str:
+        """Only of goals that theory sets: others are of what the paper's scheme or codes like it give."""
+        e = self.expected
+        is_theory = math.isnan(e.modern_theory) and abs(e.goal - e.theory) <= e.goal_tolerance
+        return self._goal_state(self.modern) if is_theory else ""
+
+    def _goal_state(self, measured: float) -> str:
+        if math.isnan(self.expected.goal) or math.isnan(measured):
             return ""
-        return "met" if abs(self.measured - self.expected.goal) <= self.expected.goal_tolerance else "not met"
+        return "met" if abs(measured - self.expected.goal) <= self.expected.goal_tolerance else "not met"
 
     @property
     def reference(self) -> tuple[str, float]:
@@ -50,8 +75,22 @@ class Row:
     @property
     def error(self) -> float:
         """Relative to the reference; NaN without one, or where it is zero."""
-        value = self.reference[1]
-        return (self.measured - value) / abs(value) if value != 0 else math.nan
+        return _relative_error(self.measured, self.reference[1])
+
+    @property
+    def modern_reference(self) -> tuple[str, float]:
+        """The same of mode modern, which meets no goal that is not theory's."""
+        if not math.isnan(self.expected.modern_theory):
+            return "theory", self.expected.modern_theory
+        return self.reference if self.reference[0] != "goal" else ("", math.nan)
+
+    @property
+    def modern_error(self) -> float:
+        return _relative_error(self.modern, self.modern_reference[1])
+
+
+def _relative_error(measured: float, value: float) -> float:
+    return (measured - value) / abs(value) if value != 0 else math.nan
 
 
 @dataclass(frozen=True)
@@ -77,6 +116,11 @@ class RunRecord:
         return 1e9 * self.cpu_seconds / work if work else math.nan
 
 
+def cpu_seconds_of(runs: Iterable[RunRecord]) -> float:
+    """Of all that say it."""
+    return sum(run.cpu_seconds for run in runs if math.isfinite(run.cpu_seconds))
+
+
 @dataclass
 class StudyReport:
     study: Study
@@ -92,7 +136,12 @@ class StudyReport:
 
     @property
     def cpu_seconds(self) -> float:
-        return sum(run.cpu_seconds for run in self.done if math.isfinite(run.cpu_seconds))
+        return cpu_seconds_of(self.done)
+
+    @property
+    def modern(self) -> list[RunRecord]:
+        """The finished runs in mode modern."""
+        return [run for run in self.done if run.job.variant.twin]
 
 
 @dataclass
@@ -122,10 +171,14 @@ class Comparison:
         return counts
 
     def count(self, check: str) -> int:
-        return sum(row.check == check for row in self.rows)
+        """Of both the paper's scheme and mode modern."""
+        return sum((row.check == check) + (row.modern_check == check) for row in self.rows)
 
     def count_goals(self, state: str) -> int:
         return sum(row.goal_state == state for row in self.rows)
+
+    def count_modern_goals(self, state: str) -> int:
+        return sum(row.modern_goal_state == state for row in self.rows)
 
     @property
     def passes(self) -> bool:

@@ -10,10 +10,10 @@ from comparison.markdown import to_html
 from comparison.model import Comparison, Row, StudyReport
 from comparison.report_markdown import readme_text
 from comparison.study import Drawing
-from comparison.tables import LEGEND, QUANTITY_HEADINGS, RUN_HEADINGS, quantity_cells, run_cells, study_line, summary
+from comparison.tables import LEGEND, QUANTITY_HEADINGS, RUN_HEADINGS, quantity_cells, run_cells, study_line, summary, worst_of
 
 STYLE = (Path(__file__).parent / "report.css").read_text(encoding="utf-8")
-NUMBER_COLUMNS = range(2, 8)  # of QUANTITY_HEADINGS
+NUMBER_COLUMNS = range(2, 11)  # of QUANTITY_HEADINGS
 RUN_NUMBER_COLUMNS = range(1, 11)  # of RUN_HEADINGS
 STATE_CLASSES = {"pass": "good", "FAIL": "bad", "MISSING": "bad", "met": "good", "not met": "bad", "not run": "faint"}
 
@@ -38,7 +38,7 @@ def _quantity_row(row: Row, has_description: bool) -> str:
     for column, text in enumerate(quantity_cells(row)):
         kind = "number" if column in NUMBER_COLUMNS else ""
         if column >= len(QUANTITY_HEADINGS) - 2:
-            kind = STATE_CLASSES.get(text, "")
+            kind = STATE_CLASSES.get(worst_of(text), "")
         body = breakable(text) if column == 0 else escape(text)
         if column == 0 and has_description and row.expected.description:
             body += f"<small>{escape(row.expected.description)}</small>"

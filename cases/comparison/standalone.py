@@ -29,8 +29,11 @@ def finished_runs(folder: Path, names: Sequence[str]) -> dict[str, Path]:
     return found
 
 
-def comparison_lines(study: Study, level: str, measured: Mapping[str, float]) -> list[str]:
-    """A line for each quantity: measured, recorded, theory, paper, goal, in the unit of expected.csv."""
+def comparison_lines(study: Study, level: str, measured: Mapping[str, float],
+                     modern: Mapping[str, float] | None = None) -> list[str]:
+    """A line for each quantity: measured, recorded, theory, paper, goal and, where there is any, what mode modern gives and
+    gave, in the unit of expected.csv."""
+    modern = modern or {}
     try:
         expected = {row.quantity: row for row in study.expected(level)}
     except StudyError as error:
@@ -38,16 +41,18 @@ def comparison_lines(study: Study, level: str, measured: Mapping[str, float]) ->
         lines = [f"note: {error}"]
     else:
         lines = []
-    width = max((len(name) for name in [*expected, *measured]), default=8)
-    lines.append(f"{'quantity':{width}}  {'unit':>6} {'measured':>12} {'recorded':>12} {'theory':>12} {'paper':>12} {'goal':>12}")
+    width = max((len(name) for name in [*expected, *measured, *modern]), default=8)
+    lines.append(f"{'quantity':{width}}  {'unit':>6} {'measured':>12} {'recorded':>12} {'theory':>12} {'paper':>12} {'goal':>12}"
+                 + (f" {'modern':>12} {'recorded':>12}" if modern else ""))
     for name, row in expected.items():
         value = row.from_si(measured[name]) if name in measured else math.nan
         numbers = " ".join(f"{number:12.6g}" if math.isfinite(number) else f"{'-':>12}"
-                           for number in (value, row.ours, row.theory, row.paper, row.goal))
-        lines.append(f"{name:{width}}  {row.unit:>6} {numbers}" + ("" if name in measured else "   not measured"))
-    for name in measured:
-        if name not in expected:
-            lines.append(f"{name:{width}}  {'SI':>6} {measured[name]:12.6g}   not in expected.csv")
+                           for number in (value, row.ours, row.theory, row.paper, row.goal,
+                                          *((row.from_si(modern.get(name, math.nan)), row.modern) if modern else ())))
+        lines.append(f"{name:{width}}  {row.unit:>6} {numbers}" + ("" if name in measured or name in modern else "   not measured"))
+    for title, values in (("", measured), (" in mode modern", modern)):
+        lines += [f"{name:{width}}  {'SI':>6} {value:12.6g}   not in expected.csv{title}"
+                  for name, value in values.items() if name not in expected]
     return lines
 
 
@@ -75,8 +80,8 @@ def standalone_main(file: str | Path, measure: Callable[[Results], dict[str, flo
         missing = [name for name in names if name not in runs]
         if missing:
             print(f"not there or not finished: {', '.join(missing)}")
-        results = Results(runs, level)
-        for line in comparison_lines(study, level, measure(results)):
+        results = study.results(level, runs)
+        for line in comparison_lines(study, level, measure(results), measure(results.modern) if results.modern else {}):
             print(line)
         output: Path = chosen.output or folder / "figures"
         output.mkdir(parents=True, exist_ok=True)

@@ -14,9 +14,19 @@ runs.toml, where --set arguments of the program stand in tables:
     set = {"resolution.spacing" = 6.25e-5, "time.end" = 1e-4}
     runs = ["U0_0.8"]                  # only these; without it, all that do not name their levels
 
+    modern = ["U0_0.8"]                # these a second time in mode modern; without it, none
+
     [runs."U0_0.8"]
     set = {"drop.velocity" = [0, -0.8]}    # goes before what the level sets
-    levels = ["paper", "quick"]            # only there
+    levels = ["paper", "quick"]            # only there; [] for a run that is made in mode modern alone
+
+    [modern]
+    set = {"time.sound_cfl" = 0.4}         # what runs in mode modern have besides
+
+A run in mode modern is called U0_0.8_modern, and is measured and told of under the name of its twin U0_0.8: measure() is asked
+twice, for the runs of the paper's scheme and for those in mode modern, and both values stand in one row. expected.csv records
+the second in its columns modern and modern_tolerance, which a study without such runs leaves out. Where theory has another
+value for mode modern, as a liquid of another viscosity swings otherwise, a column modern_theory says it.
 """
 
 from __future__ import annotations
@@ -28,6 +38,7 @@ import sys
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -49,6 +60,9 @@ UNITS = {
 
 
 EXPECTED_COLUMNS = ("level", "quantity", "unit", "theory", "paper", "goal", "goal_tolerance", "ours", "tolerance", "description")
+MODERN_COLUMNS = ("modern", "modern_tolerance")
+MODERN_THEORY = "modern_theory"
+MODERN = "_modern"  # how the names of runs in mode modern end
 
 
 class StudyError(Exception):
@@ -61,6 +75,7 @@ class Variant:
 
     name: str
     settings: Mapping[str, Any]
+    twin: str = ""  # of a run in mode modern: the run that it repeats
 
     @property
     def arguments(self) -> list[str]:
@@ -82,6 +97,9 @@ class Expected:
     ours: float            # what this program gave when the row was written
     tolerance: float       # by which a run may differ from it
     description: str
+    modern: float = math.nan            # what it gave in mode modern
+    modern_tolerance: float = math.nan
+    modern_theory: float = math.nan     # where it is not that of the paper's scheme
 
     def from_si(self, value: float) -> float:
         return value / UNITS[self.unit]
@@ -99,10 +117,16 @@ class Drawing:
 class Results(Mapping[str, Run]):
     """The finished runs of a study by name."""
 
-    def __init__(self, runs: Mapping[str, Path], level: str) -> None:
+    def __init__(self, runs: Mapping[str, Path], level: str, modern: Mapping[str, Path] | None = None) -> None:
         self._paths = dict(runs)
         self._opened: dict[str, Run] = {}
+        self._modern = dict(modern or {})
         self.level = level
+
+    @cached_property
+    def modern(self) -> Results:
+        """Those in mode modern by the names of their twins."""
+        return Results(self._modern, self.level)
 
     def __getitem__(self, name: str) -> Run:
         if name not in self._opened:
@@ -141,21 +165,26 @@ class Study:
             table = tomllib.loads(path.read_text(encoding="utf-8"))
         except (OSError, tomllib.TOMLDecodeError) as error:
             raise StudyError(f"{path}: {error}") from error
-        for section in set(table) - {"levels", "runs"}:
-            raise StudyError(f"{path}: [{section}] is neither [levels.*] nor [runs.*]")
+        for section in set(table) - {"levels", "runs", "modern"}:
+            raise StudyError(f"{path}: [{section}] is none of [levels.*], [runs.*] and [modern]")
+        for key in set(table.get("modern", {})) - {"set"}:
+            raise StudyError(f"{path}: [modern] has an unknown key '{key}'")
         for level in set(table.get("levels", {})) - set(LEVELS):
             raise StudyError(f"{path}: there is no level '{level}'; there are {', '.join(LEVELS)}")
-        for kind, allowed in (("levels", {"set", "runs"}), ("runs", {"set", "levels"})):
+        for kind, allowed in (("levels", {"set", "runs", "modern"}), ("runs", {"set", "levels"})):
             for name, entry in table.get(kind, {}).items():
                 for key in set(entry) - allowed:
                     raise StudyError(f"{path}: [{kind}.{name}] has an unknown key '{key}'")
         for name, level in table.get("levels", {}).items():
-            for run in set(level.get("runs", [])) - set(table.get("runs", {})):
+            for run in {*level.get("runs", []), *level.get("modern", [])} - set(table.get("runs", {})):
                 raise StudyError(f"{path}: [levels.{name}] names the run '{run}', which there is not")
+        for run in table.get("runs", {}):
+            if run.endswith(MODERN):
+                raise StudyError(f"{path}: [runs.{run}]: names that end with {MODERN} are those of runs in mode modern")
         return table
 
     def variants(self, level: str) -> list[Variant]:
-        """The runs of a level, in the order of runs.toml; none if the study leaves the level out."""
+        """The runs of a level, in the order of runs.toml, and then those in mode modern; none if the study leaves the level out."""
         if level not in self._table.get("levels", {}):
             return []
         entry = self._table["levels"][level]
@@ -167,7 +196,16 @@ class Study:
                 wanted = level in run.get("levels", LEVELS)
             if wanted:
                 found.append(Variant(name, {**run.get("set", {}), **entry.get("set", {})}))
+        modern = {**entry.get("set", {}), "mode": "modern", **self._table.get("modern", {}).get("set", {})}
+        found += [Variant(name + MODERN, {**run.get("set", {}), **modern}, twin=name)
+                  for name, run in self._table.get("runs", {}).items() if name in entry.get("modern", [])]
         return found
+
+    def results(self, level: str, folders: Mapping[str, Path]) -> Results:
+        """Of finished runs by their own names."""
+        there = [variant for variant in self.variants(level) if variant.name in folders]
+        return Results({variant.name: folders[variant.name] for variant in there if not variant.twin}, level,
+                       {variant.twin: folders[variant.name] for variant in there if variant.twin})
 
     def parameters(self, variant: Variant) -> dict[str, Any]:
         """case.cfg's table with the variant's settings in it; what neither says is not there."""
@@ -218,7 +256,7 @@ class Study:
 
 def _expected_row(row: Mapping[str, str | None], place: str) -> Expected:
     if None in row or None in row.values():  # what csv makes of too many and too few cells
-        raise StudyError(f"{place}: does not have {len(EXPECTED_COLUMNS)} cells; text with a comma goes in quotes")
+        raise StudyError(f"{place}: does not have {sum(key is not None for key in row)} cells; text with a comma goes in quotes")
     if row["unit"] not in UNITS:
         raise StudyError(f"{place}: there is no unit '{row['unit']}'; there are {', '.join(UNITS)}")
     if row["level"] not in LEVELS:
@@ -226,12 +264,12 @@ def _expected_row(row: Mapping[str, str | None], place: str) -> Expected:
     if not row["quantity"]:
         raise StudyError(f"{place}: names no quantity")
     numbers = {}
-    for key in ("theory", "paper", "goal", "goal_tolerance", "ours", "tolerance"):
+    for key in ("theory", "paper", "goal", "goal_tolerance", "ours", "tolerance", *MODERN_COLUMNS, MODERN_THEORY):
         try:
-            numbers[key] = float(row[key]) if row[key].strip() else math.nan
+            numbers[key] = float(row[key]) if (row.get(key) or "").strip() else math.nan
         except ValueError:
             raise StudyError(f"{place}: {key} is '{row[key]}', not a number") from None
-    for value, tolerance in (("ours", "tolerance"), ("goal", "goal_tolerance")):
+    for value, tolerance in (("ours", "tolerance"), ("modern", "modern_tolerance"), ("goal", "goal_tolerance")):
         if not math.isnan(numbers[value]) and not numbers[tolerance] >= 0:
             raise StudyError(f"{place}: {value} needs its {tolerance}, a number not below 0")
     return Expected(row["level"], row["quantity"], row["unit"], **numbers, description=row["description"])

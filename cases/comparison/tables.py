@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from comparison.cost import in_words
-from comparison.model import Comparison, Row, RunRecord, StudyReport
+from comparison.model import Comparison, Row, RunRecord, StudyReport, cpu_seconds_of
 
-QUANTITY_HEADINGS = ("quantity", "unit", "theory", "paper", "goal", "measured", "error", "recorded", "check", "goal met")
+QUANTITY_HEADINGS = ("quantity", "unit", "theory", "paper", "goal", "ours (paper's scheme)", "ours (modern)", "error", "error (modern)",
+                     "recorded", "recorded (modern)", "check", "goal met")
 RUN_HEADINGS = ("run", "particles", "steps", "simulated (ms)", "wall (s)", "CPU (s)", "ns per particle and step",
                 "unaccounted energy", "energy rise", "momentum mismatch", "angular mismatch", "state hash", "commit")
 CHECK_WORDS = {"pass": "pass", "fail": "FAIL", "missing": "MISSING", "not run": "not run", "": ""}
@@ -29,25 +30,47 @@ def with_tolerance(value: float, tolerance: float) -> str:
     return "" if math.isnan(value) else f"{number(value, 5)} ± {number(tolerance, 2)}"
 
 
-def error_text(row: Row) -> str:
+def error_text(row: Row, is_modern: bool = False) -> str:
     """Against theory, or what else stands in brackets."""
-    if math.isnan(row.error):
+    error = row.modern_error if is_modern else row.error
+    if math.isnan(error):
         return ""
-    name, _ = row.reference
-    return f"{100 * row.error:+.2g} %" + (f" ({name})" if name != "theory" else "")
+    name, _ = row.modern_reference if is_modern else row.reference
+    return f"{100 * error:+.2g} %" + (f" ({name})" if name != "theory" else "")
+
+
+def both(own: str, modern: str) -> str:
+    """A state of the paper's scheme and one of mode modern in a cell."""
+    if own == modern or not modern:
+        return own
+    return f"{own}; modern {modern}" if own else f"modern {modern}"
+
+
+def worst_of(text: str) -> str:
+    """The state by which a cell made by both() is coloured: the worse one of a check; none of two goals that differ."""
+    states = [part.removeprefix("modern ") for part in text.split("; ")]
+    for state in ("FAIL", "MISSING", "not run"):
+        if state in states:
+            return state
+    return states[0] if len(states) == 1 else ""
 
 
 def quantity_cells(row: Row) -> list[str]:
     """Those under QUANTITY_HEADINGS."""
     e = row.expected
-    measured = number(row.measured, 5) if row.is_expected or e.unit != "%" else number(row.measured, 2)
-    return [e.quantity, e.unit, number(e.theory), number(e.paper), with_tolerance(e.goal, e.goal_tolerance), measured,
-            error_text(row), with_tolerance(e.ours, e.tolerance), CHECK_WORDS[row.check], row.goal_state]
+    digits = 5 if row.is_expected or e.unit != "%" else 2
+    return [e.quantity, e.unit, both(number(e.theory), number(e.modern_theory)), number(e.paper), with_tolerance(e.goal, e.goal_tolerance),
+            number(row.measured, digits), number(row.modern, digits), error_text(row), error_text(row, is_modern=True),
+            with_tolerance(e.ours, e.tolerance), with_tolerance(e.modern, e.modern_tolerance),
+            both(CHECK_WORDS[row.check], CHECK_WORDS[row.modern_check]), both(row.goal_state, row.modern_goal_state)]
 
 
 def study_line(report: StudyReport) -> str:
     """How many runs there are and what they cost."""
-    return f"{len(report.done)} of {len(report.runs)} runs, CPU time {in_words(report.cpu_seconds)}"
+    text = f"{len(report.done)} of {len(report.runs)} runs, CPU time {in_words(report.cpu_seconds)}"
+    if report.modern:
+        text += f"; of these {len(report.modern)} in mode modern, {in_words(cpu_seconds_of(report.modern))}"
+    return text
 
 
 def run_cells(run: RunRecord) -> list[str]:
@@ -67,7 +90,9 @@ def counts_line(comparison: Comparison) -> str:
     for check, words in (("missing", "are missing"), ("not run", "wait for runs")):
         if comparison.count(check):
             parts.append(f"{comparison.count(check)} {words}")
-    return ", ".join(parts) + f"; {comparison.count_goals('met')} goals met, {comparison.count_goals('not met')} not met"
+    text = ", ".join(parts) + f"; {comparison.count_goals('met')} goals met, {comparison.count_goals('not met')} not met"
+    met, missed = (comparison.count_modern_goals(state) for state in ("met", "not met"))
+    return text + (f"; in mode modern {met} met, {missed} not met" if met + missed else "")
 
 
 def runs_line(comparison: Comparison) -> str:
@@ -115,7 +140,9 @@ def summary(comparison: Comparison) -> list[tuple[str, str]]:
 
 
 LEGEND = (
-    "Check: the measured value against the one recorded when expected.csv was written. Goal: the number to meet, from theory "
-    "or the paper. The error counts from theory where there is one, or else from what is in brackets. What the ledgers' rows "
-    "give is the worst of a study's runs. CPU time is that of all ranks."
+    "Paper: what the paper states. Ours: measured, once with the paper's scheme and once, of the runs that end with _modern, in "
+    "mode modern. Check: the measured value against the one recorded when expected.csv was written. Goal: the number to meet, "
+    "from theory or the paper. The error counts from theory where there is one, or else from what is in brackets. What the "
+    "ledgers' rows give is the worst of a study's runs. CPU time is that of all ranks; cpu_time_of_pairs is that of the runs "
+    "which were made both ways."
 )

@@ -118,6 +118,11 @@ def draw_histories(results: Results) -> Figure | None:
             stress = case_of(run)["solid"]["artificial_stress_coefficient"]
             label = f"{rows_across(run)} rows" if panel is axes[0] else rf"10 rows, $\varepsilon$ = {stress:g}"
             panel.plot(run.history["time"], run.history["deflection"] * MILLI, color=colour, label=label)
+    for panel, name in zip(axes, ("rows6", "rows10")):
+        if name in results.modern:
+            run = results.modern[name]
+            panel.plot(run.history["time"], run.history["deflection"] * MILLI, color=LINES[3], lw=2.5, alpha=0.6,
+                       label=f"{rows_across(run)} rows, mode modern")
     run = results[next(name for names in groups for name in names)]
     times, omega = np.linspace(0, run.history["time"][-1], 600), theory_of(run).angular_frequency
     for panel in axes:
@@ -160,7 +165,9 @@ def draw_convergence(results: Results) -> Figure | None:
     fitted = convergence(results)
     if fitted is None:
         return None
-    figure = convergence_panels({"$f/f_0$": fitted})
+    modern = [results.modern[name] for name in ROWS if name in results.modern]
+    ratios = [theory_of(run).period / mean_period(run) for run in modern]
+    figure = convergence_panels({"$f/f_0$": fitted}, {"$f/f_0$": ([spacing_of(run) for run in modern], ratios)} if modern else {})
     if figure is not None:
         figure.axes[0].set_xticks([0, 1000, 2000, 3000])
     return figure

@@ -22,7 +22,7 @@ from comparison.beam_quantities import (  # noqa: E402
 from comparison.standalone import finished_runs, standalone_main  # noqa: E402
 from comparison.study import Drawing, Results  # noqa: E402
 from comparison.timoshenko import TimoshenkoBeam  # noqa: E402
-from figures import LINES, STYLE  # noqa: E402
+from figures import LINES, MODERN, STYLE  # noqa: E402
 from modal_beam import modal_deflection  # noqa: E402
 
 import matplotlib.pyplot as plt  # noqa: E402
@@ -67,7 +67,7 @@ def measure(results: Results) -> dict[str, float]:
         found |= {
             f"leaves_at_{name}": leaving_time(run), f"contact_time_{name}": contact_time(run),
             f"impulse_time_{name}": impulse_time(run), f"shape_at_leaving_{name}": shape_at_leaving(run),
-            f"largest_deflection_{name}": depth, f"deepest_at_{name}": deepest_at, f"exact_beam_deflection_{name}": -exact,
+            f"largest_deflection_{name}": depth, f"deflection_over_exact_{name}": depth / -exact, f"deepest_at_{name}": deepest_at, f"exact_beam_deflection_{name}": -exact,
             f"exact_beam_deepest_at_{name}": exact_at, f"period_{name}": first_mode(run).period, f"widest_at_{name}": widest_at,
             f"spread_{name}": spread, f"rebound_speed_{name}": history_at(run, "drop_velocity_y", leaving_time(run)),
             f"touches_again_{name}": len(contact_episodes(run)) - 1.0 if has_left else math.nan}
@@ -101,7 +101,7 @@ def draw_shapes(runs: dict[str, Run]) -> Figure | None:
     return figure
 
 
-def draw_contact_times(runs: dict[str, Run]) -> Figure | None:
+def draw_contact_times(runs: dict[str, Run], modern: dict[str, Run]) -> Figure | None:
     if not runs:
         return None
     figure, axes = plt.subplots(figsize=(5.2, 3.2), layout="constrained")
@@ -115,6 +115,9 @@ def draw_contact_times(runs: dict[str, Run]) -> Figure | None:
         axes.plot(list(chosen), [time(run) * MILLI for run in chosen.values()], "o-", ms=4, color=colour, label=f"{label}: {until}")
         axes.plot(list(chosen), [given(run) * MILLI for run in chosen.values()], "o:", ms=4, mfc="none",
                   color=colour, label=f"{label}: 99 % of the impulse")
+    if modern:
+        axes.plot([NAMES[name] for name in modern], [contact_time(run) * MILLI for run in modern.values()], "D", ms=5, mfc="none",
+                  color=LINES[2], **MODERN, label="beam, mode modern: until the drop parts")
     axes.axhline(PAPER_RIGID * MILLI, color="#1c222b", **PAPER, label="paper: rigid wall, 3.17 ms")
     axes.plot(list(PAPER_CONTACT), [time * MILLI for time in PAPER_CONTACT.values()], "*", ms=9, color="#1c222b",
               label="paper: beam, about 0.8 of it")
@@ -131,6 +134,9 @@ def draw_histories(results: Results, runs: dict[str, Run]) -> Figure | None:
         label = f"{NAMES[name]:.1f} m/s"
         history_lines(left, run, "deflection", MILLI, color=colour, label=label)
         history_lines(right, run, "drop_width", MILLI, color=colour, label=label)
+        if name in results.modern:
+            for axes, column in ((left, "deflection"), (right, "drop_width")):
+                history_lines(axes, results.modern[name], column, MILLI, color=colour, **MODERN)
         if math.isfinite(leaving_time(run)):
             for axes, column in ((left, "deflection"), (right, "drop_width")):
                 axes.plot(leaving_time(run) * MILLI, history_at(run, column, leaving_time(run)) * MILLI, "o", ms=4, color=colour)
@@ -138,6 +144,8 @@ def draw_histories(results: Results, runs: dict[str, Run]) -> Figure | None:
         for axes, column in ((left, "deflection"), (right, "drop_width")):
             history_lines(axes, results["U1.0_eps0"], column, MILLI, color="#5b6470", lw=1, dashes=(3, 2),
                           label=r"1.0 m/s, $\varepsilon$ = 0")
+    if results.modern:
+        right.plot([], [], color="#5b6470", **MODERN, label="mode modern")
     left.set(xlabel="time  (ms)", ylabel="deflection of mid-span  (mm)", xlim=(0, None))
     right.set(xlabel="time  (ms)", ylabel="$D$  (mm)", xlim=(0, None))
     right.legend(title="dot: leaves", title_fontsize=7.5)
@@ -146,7 +154,7 @@ def draw_histories(results: Results, runs: dict[str, Run]) -> Figure | None:
 
 def draw(results: Results, folder: Path) -> list[Drawing]:
     gallery = Gallery(folder)
-    runs = {name: results[name] for name in NAMES if name in results}
+    runs, modern = ({name: those[name] for name in NAMES if name in those} for those in (results, results.modern))
     with plt.rc_context(STYLE):
         for name, run in runs.items():
             end = leaving_time(run)
@@ -155,10 +163,13 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
                         PAPER_FIGURES[name])
         gallery.add("shapes", draw_shapes(runs), "The drop as it leaves: well above 1 wide over high is a pancake, near or below 1 "
                     "a pear.", "Figs 12-14")
-        gallery.add("contact_times", draw_contact_times(runs), "Contact time over the speed, on the beam and on the rigid wall.")
-        gallery.add("histories", draw_histories(results, runs), "Deflection of mid-span and width of the drop.")
+        gallery.add("contact_times", draw_contact_times(runs, modern), "Contact time over the speed, on the beam and on the rigid wall.")
+        gallery.add("histories", draw_histories(results, runs), "Deflection of mid-span and width of the drop. Dashed and long: mode "
+                    "modern.")
         checks = {f"$U_0$ = {NAMES[name]:.1f} m/s": run for name, run in runs.items()}
         gallery.add("modal_check", modal_checks(checks), "The exact beams under each run's recorded contact force.")
+        checks = {f"$U_0$ = {NAMES[name]:.1f} m/s, mode modern": run for name, run in modern.items()}
+        gallery.add("modal_check_modern", modal_checks(checks), "The same of the runs in mode modern.")
     return gallery.drawings
 
 

@@ -83,6 +83,11 @@ def draw_histories(results: Results) -> Figure | None:
         history_lines(left, run, "deflection", MILLI, color=colour, label=label)
         energy = run.history["kinetic_solid"] + run.history["elastic"]
         right.plot(run.history["time"] * MILLI, energy / energy[0], color=colour, label=label)
+    for name in list(results.modern)[:1]:
+        run = results.modern[name]
+        energy = run.history["kinetic_solid"] + run.history["elastic"]
+        history_lines(left, run, "deflection", MILLI, color=LINES[6], lw=2.5, alpha=0.6, label=f"{rows_across(run)} rows, modern")
+        right.plot(run.history["time"] * MILLI, energy / energy[0], color=LINES[6], lw=2.5, alpha=0.6, label=f"{rows_across(run)} rows, modern")
     run = next(iter(runs.values()))
     theory = theory_of(run).angular_frequency
     times = np.linspace(0, end, 400)
@@ -90,13 +95,15 @@ def draw_histories(results: Results) -> Figure | None:
     left.plot(times * MILLI, amplitude * np.sin(theory * times) * MILLI, color="#1c222b", lw=1, dashes=(4, 2), label="theory (43)")
     left.set(xlabel="time  (ms)", ylabel=r"$\delta$  (mm)", xlim=(0, None), ylim=(-1.25e3 * amplitude, 1.7e3 * amplitude))
     right.set(xlabel="time  (ms)", ylabel="energy / energy at the start", xlim=(0, None), ylim=(0, 1.03))
-    left.legend(ncols=3, loc="upper center")
+    left.legend(ncols=3, loc="upper center", fontsize=6.5)
     return figure
 
 
 def draw_convergence(results: Results) -> Figure | None:
     fitted = convergence(results)
-    return None if fitted is None else convergence_panels({r"$f/f_0$": fitted})
+    modern = [results.modern[name] for name in ROWS if name in results.modern]
+    drawn = {r"$f/f_0$": ([spacing_of(run) for run in modern], [frequency_ratio(run) for run in modern])} if modern else {}
+    return None if fitted is None else convergence_panels({r"$f/f_0$": fitted}, drawn)
 
 
 def draw_lengths(results: Results) -> Figure | None:
@@ -106,6 +113,10 @@ def draw_lengths(results: Results) -> Figure | None:
     figure, axes = plt.subplots(figsize=(4.2, 3.0), layout="constrained")
     lengths = np.array([case_of(run)["solid"]["length"] for run in runs]) * MILLI
     axes.plot(lengths, [ringing(run).period * MILLI for run in runs], "o", ms=5, color=LINES[0], label="sphdrop, 6 rows")
+    modern = [results.modern[name] for name in LENGTHS if name in results.modern]
+    if modern:
+        axes.plot([case_of(run)["solid"]["length"] * MILLI for run in modern], [ringing(run).period * MILLI for run in modern], "D",
+                  ms=6, mfc="none", color=LINES[2], label="in mode modern")
     fine = np.linspace(7, 21, 100)
     axes.plot(fine, theory_of(runs[0]).period * (fine / lengths[0]) ** 2 * MILLI, color="#1c222b", lw=1, dashes=(4, 2), label="Eq 44")
     for length, run in zip(lengths, runs):
@@ -119,7 +130,8 @@ def draw_lengths(results: Results) -> Figure | None:
 def draw(results: Results, folder: Path) -> list[Drawing]:
     gallery = Gallery(folder)
     with plt.rc_context(STYLE):
-        gallery.add("histories", draw_histories(results), "Deflection of the free end with theory's, and what is left of the energy.")
+        gallery.add("histories", draw_histories(results), "Deflection of the free end with theory's, and what is left of the energy. "
+                    "Wide: mode modern, whose rows all give the same.")
         gallery.add("convergence", draw_convergence(results), "Frequency over theory's; red: the limit that the fit names.")
         gallery.add("lengths", draw_lengths(results), "The period over the length with Eq 44.")
     return gallery.drawings

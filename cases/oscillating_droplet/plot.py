@@ -18,7 +18,7 @@ from comparison import quantities  # noqa: E402
 from comparison.drop_figures import draw_drop_strip, save  # noqa: E402
 from comparison.standalone import standalone_main  # noqa: E402
 from comparison.study import Drawing, Results  # noqa: E402
-from figures import LINES, STYLE  # noqa: E402
+from figures import LINES, MODERN, STYLE  # noqa: E402
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
@@ -176,6 +176,7 @@ def draw_quarter_centres(results: Results, speed: str) -> Figure | None:
 def draw_viscous(results: Results) -> Figure | None:
     """The swing with a physical viscosity over the exact theory's, which starts at the first extremum."""
     runs = [run for run in results.values() if is_physical(run)]
+    runs += [run for run in results.modern.values() if parameters(run)["drop"]["oscillation_velocity"] <= 0.05]
     if not runs:
         return None
     figure, grid = plt.subplots(len(runs), 1, figsize=(6.4, 1.6 * len(runs)), sharex=True, layout="constrained", squeeze=False)
@@ -204,6 +205,12 @@ def draw_periods(results: Results) -> Figure | None:
     for run, colour in zip(runs, LINES):
         periods, amplitudes = periods_and_amplitudes(run)
         axes.plot(amplitudes, periods * MILLI, "o-", ms=3.5, lw=0.8, color=colour, label=label(run))
+    for name, colour in zip([name for name in results if not is_physical(results[name])], LINES):
+        if name in results.modern:
+            periods, amplitudes = periods_and_amplitudes(results.modern[name])
+            axes.plot(amplitudes, periods * MILLI, "D", ms=3.5, mfc="none", color=colour, **MODERN)
+    if results.modern:
+        axes.plot([], [], "D", ms=3.5, mfc="none", color="#5b6470", **MODERN, label="mode modern")
     radius = radius_of(run)
     ideal = 2 * math.pi / ideal_angular_frequency(radius)
     viscous = viscous_swing(radius, effective_viscosity(run))[0]
@@ -245,7 +252,8 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
         made.append(("shapes.png", draw_shapes(shown), f"The first two periods; {label(shown)}.".replace("$", ""), "Fig. 9"))
         made.append(("quarter_centre.png", draw_quarter_centres(results, "0.8"),
                      "The mass centre of the upper right quarter at V0 = 0.8 m/s; dashed: of a circle's quarter.", "Fig. 10"))
-        made.append(("period.png", draw_periods(results), "Each period over its amplitude: it falls as the swing dies out.", ""))
+        made.append(("period.png", draw_periods(results), "Each period over its amplitude: it falls as the swing dies out. "
+                     "Diamonds: mode modern.", ""))
         made.append(("decay.png", draw_decay(results),
                      "Decay; dashed: exact theory of a small swing with the viscosity alpha c h/16.", ""))
         made.append(("viscous.png", draw_viscous(results),

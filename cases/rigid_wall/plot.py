@@ -17,7 +17,7 @@ from comparison.drop_figures import draw_drop_strip, save  # noqa: E402
 from comparison.convergence import Fit, fit_order  # noqa: E402
 from comparison.standalone import standalone_main  # noqa: E402
 from comparison.study import Drawing, Results  # noqa: E402
-from figures import LINES, STYLE  # noqa: E402
+from figures import LINES, MODERN, STYLE  # noqa: E402
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
@@ -30,6 +30,7 @@ MILLI = 1e3
 PAPER_CONTACT_TIME = 3.17e-3  # s, at every speed
 CLUMP_TIME = 1.5e-3           # s: near the widest
 CLUMP_LIMIT = 0.5             # spacings; the flow alone brings particles to 0.6 or 0.7
+SHOWN_MODERN = ("U0.5", "U0.8", "U1.0")  # of which the width is drawn in mode modern, too
 PREFIXES = {"U": "0.1", "alpha0.7_U": "0.7", "alpha1.0_U": "1.0"}  # runs over the speed: their alpha
 CONVERGENCE = {  # runs over the spacing, of alpha as it is and of alpha such that the viscosity alpha c h/16 is one
     name: (f"{name}0.05", f"{name}0.0333", "U0.8", f"{name}0.0167") for name in ("spacing", "same_viscosity")
@@ -111,6 +112,11 @@ def draw_contact_times(results: Results) -> Figure | None:
     if not left.lines:
         plt.close(figure)
         return None
+    modern = [run for run in sorted(results.modern.matching("U").values(), key=speed) if speed(run) <= 1.0]
+    if modern:
+        speeds, line = [speed(run) for run in modern], {"color": LINES[3], "ms": 4, "mfc": "none", **MODERN}
+        left.plot(speeds, [quantities.contact_time(run) * MILLI for run in modern], "D", **line, label="mode modern, first to last contact")
+        right.plot(speeds, [quantities.restitution(run) for run in modern], "D", **line, label="mode modern")
     left.axhline(PAPER_CONTACT_TIME * MILLI, color="#333a44", dashes=(6, 3), lw=1, label="paper, 3.17 ms")
     left.set(xlabel="$U_0$  (m/s)", ylabel="contact time  (ms)", ylim=(2, 6.2))
     left.legend(loc="upper left", fontsize=6.5)
@@ -120,22 +126,28 @@ def draw_contact_times(results: Results) -> Figure | None:
 
 
 def draw_widths(results: Results) -> Figure | None:
-    runs = [run for run in results.matching("U").values() if speed(run) <= 1.0]
+    runs = {name: run for name, run in results.matching("U").items() if speed(run) <= 1.0}
     if not runs:
         return None
     figure, axes = plt.subplots(figsize=(5.2, 3.2), layout="constrained")
-    for run, colour in zip(runs, LINES):
+    for (name, run), colour in zip(runs.items(), LINES):
         interval = quantities.contact_interval(run)
         if interval is None:
             continue
         diameter = parameter(run, "drop", "diameter")
         time = (run.history["time"] - interval[0]) * MILLI
         axes.plot(time, run.history["drop_width"] / diameter, color=colour, label=f"$U_0$ = {speed(run):.1f} m/s")
+        twin = results.modern.get(name)
+        touched = quantities.contact_interval(twin) if twin is not None and name in SHOWN_MODERN else None
+        if twin is not None and touched is not None:
+            axes.plot((twin.history["time"] - touched[0]) * MILLI, twin.history["drop_width"] / diameter, color=colour, **MODERN)
         leaves = (interval[1] - interval[0]) * MILLI
         axes.plot(leaves, np.interp(leaves, time, run.history["drop_width"]) / diameter, "o", ms=4, color=colour)
     axes.axvline(PAPER_CONTACT_TIME * MILLI, color="#333a44", dashes=(6, 3), lw=1)
     axes.annotate("paper's contact time", (PAPER_CONTACT_TIME * MILLI, 1), xycoords=("data", "axes fraction"), xytext=(3, -8),
                   textcoords="offset points", fontsize=7.5)
+    if any(name in results.modern for name in SHOWN_MODERN):
+        axes.plot([], [], color="#5b6470", **MODERN, label="mode modern")
     axes.set(xlabel="time since the first contact  (ms)", ylabel="$D/D_0$", xlim=(0, None))
     axes.legend(loc="upper right", bbox_to_anchor=(1, 0.93))
     return figure
@@ -236,6 +248,9 @@ STRIPS = (
 def draw(results: Results, folder: Path) -> list[Drawing]:
     with plt.rc_context(STYLE):
         made = [(name, draw_one(results), caption, paper) for name, draw_one, caption, paper in PICTURES]
+        if "U0.8" in results.modern:
+            made.append(("rebound_modern.png", draw_drop_strip(results.modern["U0.8"], [time / MILLI for time in STRIPS[0][3]]),
+                         "Impact, spreading and rebound at 0.8 m/s in mode modern.", ""))
         made += [(name, draw_drop_strip(results[run], [time / MILLI for time in times]), caption, "")
                  for name, run, caption, times in STRIPS if run in results]
         return save(made, folder)

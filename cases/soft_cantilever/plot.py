@@ -12,20 +12,26 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from comparison.beam_figures import MILLI, Gallery, history_lines, strip  # noqa: E402
+from comparison.beam_frequency import first_mode  # noqa: E402
 from comparison.beam_quantities import (  # noqa: E402
-    case_of, deepest_deflection, history_at, impulse_time, largest_gap_of_run, leaving_time, section_displacement, theory_of)
+    case_of, deepest_deflection, history_at, impulse_time, largest_gap, largest_gap_of_run, largest_row_strain, leaving_time,
+    lowest_point, section_displacement, theory_of)
 from comparison.exact_beam import Array  # noqa: E402
 from comparison.standalone import standalone_main  # noqa: E402
 from comparison.study import Drawing, Results  # noqa: E402
-from figures import LINES, STYLE  # noqa: E402
+from comparison.timoshenko import TimoshenkoBeam  # noqa: E402
+from figures import LINES, MODERN, STYLE  # noqa: E402
+from modal_beam import modal_deflection  # noqa: E402
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from figure_particles import colourings, draw_particles  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from sphdrop_reader import Run  # noqa: E402
 
 SAMPLE = 2e-4  # s: the rates of mid-span and tip are differences over this time, that of the snapshots
 PAPER_CHI = 0.29
+BLOW = "blow"  # how the names of runs begin that ask whether the beam bears it
 
 
 def label_of(run: Run) -> str:
@@ -33,6 +39,10 @@ def label_of(run: Run) -> str:
     case = case_of(run)
     return (f"$U_0$ = {-case['drop']['velocity'][1]:.1f} m/s, "
             rf"$\varepsilon$ = {case['solid']['artificial_stress_coefficient']:g}")
+
+
+def is_modern(run: Run) -> bool:
+    return case_of(run).get("mode") == "modern"
 
 
 def length_of(run: Run) -> float:
@@ -88,11 +98,17 @@ def measure(results: Results) -> dict[str, float]:
     found: dict[str, float] = {}
     for name, run in results.items():
         deepest_at, depth = deepest_deflection(run)
-        leaves = leaving_time(run)
-        found |= {f"largest_deflection_{name}": depth, f"deepest_at_{name}": deepest_at, f"leaves_at_{name}": leaves,
-                  f"impulse_time_{name}": impulse_time(run), f"largest_gap_{name}": largest_gap_of_run(run)}
+        leaves, gap = leaving_time(run), largest_gap_of_run(run)
+        found |= {f"largest_deflection_{name}": depth, f"largest_gap_{name}": gap,
+                  f"gap_over_strain_{name}": (gap - 1) / largest_row_strain(run)}
+        if name.startswith(BLOW):  # no swing of a beam that holds together
+            found[f"relative_deflection_{name}"] = depth / length_of(run)
+            continue
+        found |= {f"deepest_at_{name}": deepest_at, f"leaves_at_{name}": leaves, f"impulse_time_{name}": impulse_time(run),
+                  f"frequency_ratio_{name}": theory_of(run).period / first_mode(run).period}
         if name.startswith("free_end"):
-            found |= {f"relative_deflection_{name}": depth / length_of(run),
+            exact = lowest_point(run.history["time"], modal_deflection(run, theory=TimoshenkoBeam))[1]
+            found |= {f"relative_deflection_{name}": depth / length_of(run), f"deflection_over_exact_{name}": depth / -exact,
                       f"centre_beyond_tip_at_leaving_{name}": float(np.interp(leaves, *beyond_tip(run))),
                       f"drop_velocity_x_at_leaving_{name}": history_at(run, "drop_velocity_x", leaves),
                       f"passes_tip_at_{name}": passes_tip_at(run)}
@@ -121,6 +137,15 @@ def draw_free_end(results: Results) -> Figure | None:
         if math.isfinite(leaves):
             left.plot(leaves * MILLI, -history_at(run, "deflection", leaves) / length_of(run), "o", ms=4, color=colour)
             right.plot(leaves * MILLI, np.interp(leaves, times, beyond) * MILLI, "o", ms=4, color=colour)
+    for name, colour in zip(runs, LINES):
+        if name in results.modern:
+            run = results.modern[name]
+            times, beyond = beyond_tip(run)
+            left.plot(run.history["time"] * MILLI, -run.history["deflection"] / length_of(run), color=colour, **MODERN)
+            right.plot(times * MILLI, beyond * MILLI, color=colour, **MODERN)
+    if results.modern.matching("free_end"):
+        right.plot([], [], color="#5b6470", **MODERN, label="mode modern")
+        right.legend()
     for theory in sorted({round(theory_of(run).relative_deflection, 9) for run in runs.values()}):
         left.axhline(theory, color="#5b6470", lw=1, dashes=(4, 2), label=rf"Eqs 46, 47: $\chi$ = {theory:.3f}")
     left.axhline(PAPER_CHI, color="#1c222b", lw=1, dashes=(1, 1.5), label=rf"paper: $\chi$ about {PAPER_CHI}")
@@ -132,17 +157,19 @@ def draw_free_end(results: Results) -> Figure | None:
 
 
 def draw_mid_span(results: Results) -> Figure | None:
-    runs = results.matching("mid_span")
+    runs = list(results.matching("mid_span").values())
     if not runs:
         return None
+    modern = list(results.modern.matching("mid_span").values())[:1]
+    runs += modern
     figure, axes = plt.subplots(2, len(runs), figsize=(max(4.6, 2.9 * len(runs)), 4.6), squeeze=False, sharex="col",
                                 layout="constrained", height_ratios=[1.5, 1])
-    for column, run in enumerate(runs.values()):
+    for column, run in enumerate(runs):
         above, below = axes[:, column]
         times, middle = middle_deflection(run)
         above.plot(times * MILLI, middle * MILLI, color=LINES[0], label="mid-span, under the drop")
         history_lines(above, run, "deflection", MILLI, color=LINES[1], label="tip")
-        above.set_title(label_of(run))
+        above.set_title(f"{label_of(run).split(',')[0]}, mode modern" if is_modern(run) else label_of(run))
         when, middle_rate, tip_rate = rates(run)
         if when.size:
             below.plot(when * MILLI, middle_rate, color=LINES[0])
@@ -159,6 +186,23 @@ def draw_mid_span(results: Results) -> Figure | None:
     return figure
 
 
+def draw_blow(results: Results) -> Figure | None:
+    """The beam where its neighbours have parted most, in the paper's scheme and in mode modern."""
+    runs = [*results.matching(BLOW).values(), *results.modern.matching(BLOW).values()]
+    if not runs:
+        return None
+    figure, axes = plt.subplots(1, len(runs), figsize=(3.8 * len(runs), 3.6), squeeze=False, sharey=True, layout="constrained")
+    for panel, run in zip(axes[0], runs):
+        frame = max(run.snapshots, key=lambda snapshot: largest_gap(run, snapshot))
+        liquid, solid = colourings([frame], "xx")
+        draw_particles(panel, frame, liquid, solid)
+        panel.set(xlim=(-0.6, 11.5), ylim=(-9.0, 2.0), xlabel="$x$  (mm)", aspect="equal")
+        panel.set_title(f"{'mode modern' if is_modern(run) else label_of(run)}, {frame.time * MILLI:.1f} ms:\n"
+                        f"gaps to {largest_gap(run, frame):.2f} $d$", loc="left")
+    axes[0, 0].set_ylabel("$y$  (mm)")
+    return figure
+
+
 def draw(results: Results, folder: Path) -> list[Drawing]:
     gallery = Gallery(folder)
     with plt.rc_context(STYLE):
@@ -169,6 +213,12 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
             times = np.array([0.1, 0.3, 0.5, 0.7, 0.85, 1.0, 1.3, 1.7]) * end
             gallery.add("strip_free_end", strip(run, times), "The drop on the free end: the beam gives way and the drop rolls off.",
                         "Fig. 22")
+        if "free_end" in results.modern:
+            run = results.modern["free_end"]
+            leaves = leaving_time(run)
+            end = leaves if math.isfinite(leaves) else run.history["time"][-1]
+            gallery.add("strip_free_end_modern", strip(run, np.array([0.1, 0.3, 0.5, 0.7, 0.85, 1.0, 1.3, 1.7]) * end),
+                        "The same in mode modern.", "Fig. 22")
         gallery.add("free_end", draw_free_end(results), "Deflection of the free end over the length, and how far the drop's mass "
                     "centre lies beyond the tip: positive when it leaves is a drop that rolled off.", "Fig. 22")
         if "mid_span" in results:
@@ -176,6 +226,7 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
                         "The drop on mid-span.", "Fig. 23")
         gallery.add("mid_span", draw_mid_span(results), "Mid-span and tip: the tip rises first and follows late, then the two move "
                     "against each other. Dashed: the drop leaves.", "Fig. 23")
+        gallery.add("blow", draw_blow(results), "A drop of 4 m/s on the free end, four rows: the beam where neighbours have parted most.")
     return gallery.drawings
 
 

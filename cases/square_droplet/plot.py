@@ -18,7 +18,7 @@ from comparison import quantities  # noqa: E402
 from comparison.drop_figures import save  # noqa: E402
 from comparison.standalone import standalone_main  # noqa: E402
 from comparison.study import Drawing, Results  # noqa: E402
-from figures import LINES, STYLE  # noqa: E402
+from figures import LINES, MODERN, STYLE  # noqa: E402
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
@@ -112,7 +112,7 @@ def draw_shapes(results: Results) -> Figure:
 
 def draw_histories(results: Results) -> Figure:
     figure, (pressure, curvature, profile) = plt.subplots(1, 3, figsize=(7.6, 2.8), layout="constrained")
-    for run, colour in zip(results.values(), LINES):
+    for (name, run), colour in zip(results.items(), LINES):
         time, radius = run.history["time"] * MILLI, circle_radius(run)
         pressure.plot(time, run.history["mean_pressure"], lw=0.8, color=colour, label=label(run))
         curvature.plot(time, run.history["mean_curvature"] * radius, lw=0.8, color=colour)
@@ -126,6 +126,10 @@ def draw_histories(results: Results) -> Figure:
         sums = np.histogram(distance, bins, weights=last["pressure"][last.fluid])[0]
         has_any = count > 0
         profile.plot((0.5 * (bins[:-1] + bins[1:]))[has_any], sums[has_any] / count[has_any], "o-", ms=2.5, color=colour)
+        if name in results.modern:
+            pressure.plot(results.modern[name].history["time"] * MILLI, results.modern[name].history["mean_pressure"], color=colour, **MODERN)
+    if results.modern:
+        pressure.plot([], [], color="#5b6470", **MODERN, label="mode modern")
     theory = laplace_pressure(run)
     for axes, value in ((pressure, theory), (curvature, 1.0), (profile, theory)):
         axes.axhline(value, color="#333a44", dashes=(6, 3), lw=0.9)
@@ -144,7 +148,7 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
     pictures = (
         ("shapes.png", draw_shapes, "From the square to the circle of equal area (dashed); brighter is faster.", "Fig. 7"),
         ("laplace.png", draw_histories,
-         "Mean pressure against sigma/R, the mean of the curvature and its standard deviation (shaded) against 1/R, and the "
+         "Mean pressure against sigma/R (dashed and long: mode modern), the mean of the curvature and its standard deviation (shaded) against 1/R, and the "
          "pressure over the distance from the centre once the drop is at rest.", "Fig. 8"),
     )
     with plt.rc_context(STYLE):

@@ -21,7 +21,7 @@ from comparison.quantities import highest_point  # noqa: E402
 from comparison.standalone import standalone_main  # noqa: E402
 from comparison.study import Drawing, Results  # noqa: E402
 from figure_particles import colourings, draw_particles  # noqa: E402
-from figures import LINES, STYLE  # noqa: E402
+from figures import LINES, MODERN, STYLE  # noqa: E402
 from modal_beam import beam_of  # noqa: E402
 
 import matplotlib.pyplot as plt  # noqa: E402
@@ -133,6 +133,10 @@ def draw_histories(results: Results) -> Figure | None:
         for row, axis in enumerate("yx"):
             panel = axes[row, column]
             panel.plot(run.history["time"], run.history[COLUMNS[axis]] * MILLI, color=LINES[row], label="sphdrop")
+            if name in results.modern:
+                run_modern = results.modern[name]
+                panel.plot(run_modern.history["time"], run_modern.history[COLUMNS[axis]] * MILLI, color=LINES[2 + row], **MODERN,
+                           label="mode modern")
             mean, amplitude = getattr(reference_of(name), axis)
             for number, value in enumerate(sorted({mean - amplitude, mean, mean + amplitude})):
                 panel.axhline(value * MILLI, color=THEORY, lw=1, dashes=(4, 2) if value == mean else (1, 1.5),
@@ -173,7 +177,10 @@ def draw_convergence(results: Results) -> Figure | None:
     fitted = convergence(results)
     if fitted is None:
         return None
-    figure = convergence_panels({r"CSM2: $u_y$ / reference": fitted})
+    label = r"CSM2: $u_y$ / reference"
+    modern = [results.modern[name] for name in ROWS if name in results.modern]
+    ratios = [run.history["deflection"][-1] / REFERENCES["csm2"].y[0] for run in modern]
+    figure = convergence_panels({label: fitted}, {label: ([spacing_of(run) for run in modern], ratios)} if modern else {})
     if figure is not None:
         figure.axes[0].set_xticks([0, 2000, 4000])
     return figure

@@ -181,6 +181,26 @@ class Sections(unittest.TestCase):
         self.assertEqual(np.count_nonzero(stretch > 1.1), ROWS)
 
 
+    def test_the_strain_of_the_outermost_rows_is_that_of_a_beam_bent_to_an_arc(self) -> None:
+        """Sections stay plane and turn by x/radius; the centre line is stretched by 1 %."""
+        radius, stretch = 5e-3, 0.01
+        bent = snapshot(1e-3)
+        x, y = bent["position"][:, 0], bent["position"][:, 1] - ROWS * SPACING / 2
+        angle = (1 + stretch) * x / radius
+        arc = np.stack([(radius - y) * np.sin(angle), radius - (radius - y) * np.cos(angle) + ROWS * SPACING / 2], axis=-1)
+        bent["position"] = np.where((x > 0)[:, None], arc, bent["position"])
+        run = RunStub({}, SnapshotsStub([snapshot(0.0), bent]))
+        # The mean of a section's particles is its middle, whose stretch is 1 %; curvature is angle over reference length.
+        expected = stretch + (1 + stretch) / radius * (ROWS - 1) / 2 * SPACING
+        self.assertAlmostEqual(beam_quantities.largest_row_strain(run), expected, delta=1e-3 * expected)  # type: ignore[arg-type]
+        gap = beam_quantities.largest_gap_of_run(run) - 1  # type: ignore[arg-type]
+        self.assertAlmostEqual(gap / expected, 1.0, delta=0.01)
+        free = bent["position"][:, 0] > 4e-3
+        bent["position"] = bent["position"] + np.where(free[:, None], [0.3 * SPACING, 0.0], 0.0)
+        cracked = beam_quantities.largest_gap_of_run(run) - 1  # type: ignore[arg-type]
+        self.assertGreater(cracked / beam_quantities.largest_row_strain(run), 2)  # type: ignore[arg-type]
+
+
 class Frequency(unittest.TestCase):
     def test_a_damped_sinusoid_of_two_periods_about_another_place(self) -> None:
         times = np.linspace(0.0, 6e-3, 3001)

@@ -31,7 +31,8 @@ class Studies(unittest.TestCase):
                     quantities = [row.quantity for row in study.expected(level)]
                     self.assertEqual(len(quantities), len(set(quantities)))
                     for variant in study.variants(level):
-                        self.assertTrue(any(quantity.endswith(variant.name) for quantity in quantities), variant.name)
+                        name = variant.twin or variant.name
+                        self.assertTrue(any(quantity.endswith(name) for quantity in quantities), variant.name)
 
 
 class Record(unittest.TestCase):
@@ -51,6 +52,18 @@ class Record(unittest.TestCase):
         count, text = self.recorded(only_empty=False)
         self.assertEqual(count, 2)
         self.assertEqual(text, self.TEXT.replace(',,,,,,"free', ',,,,0.3388,0.0017,"free').replace("1.5,0.2", "1.4,0.2"))
+
+    def test_mode_modern_has_columns_of_its_own(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "expected.csv"
+            path.write_text(self.TEXT, encoding="utf-8")
+            self.assertEqual(record(path, "paper", {}, mode="modern"), 0)
+            self.assertEqual(path.read_text(encoding="utf-8"), self.TEXT, "nothing measured, nothing changed")
+            self.assertEqual(record(path, "paper", {"depth": 2.52e-4, "time": 1.2e-3}, mode="modern"), 2)
+            lines = path.read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines[0].split(",")[-5:], ["ours", "tolerance", "modern", "modern_tolerance", "description"])
+        self.assertEqual(lines[1], 'paper,depth,mm,0.24,,,,,,0.252,0.0013,"free end, deepest"')
+        self.assertEqual(lines[2], "paper,time,ms,,1.3,,,1.5,0.2,1.2,0.2,when", "the tolerance of the paper's scheme")
 
     def test_can_leave_what_is_there(self) -> None:
         count, text = self.recorded(only_empty=True)

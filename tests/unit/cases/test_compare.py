@@ -228,13 +228,37 @@ class Report(Command):
             for words in ("speed_slow", "speed_fast", "-20 % (paper)", "Fig. 99", "speed at the start, downwards", COMMIT,
                           "00000000deadbeef", "largest_unaccounted_energy", "all runs are there and all checks pass", "2 of 2 runs"):
                 self.assertIn(words, each)
-        self.assertIn("| speed_slow | m/s | 0.5 |  | 0.5 ± 0.01 | 0.5 | +0 % | 0.5 ± 1e-06 | pass | met |", text)
+        self.assertIn("| speed_slow | m/s | 0.5 |  | 0.5 ± 0.01 | 0.5 |  | +0 % |  | 0.5 ± 1e-06 |  | pass | met |", text)
         self.assertRegex(text, r"\| slow \| 100 \| 50 \| 1 \| 2\.0 \| \d+\.\d \| \d+ \| 0 % \| 0 % \| 0 % \| 0 % \|")
         pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text)
         self.assertEqual(pictures, [f"figures/toy/{name}.png" for name in ("speed", "ledger", "ledgers")])
         for picture in pictures:
             self.assertEqual((folder / picture).read_bytes()[:4], b"\x89PNG")
         self.assertIn((folder / "table.md").read_text(encoding="utf-8").splitlines()[-1], text)
+
+    def test_runs_in_mode_modern_stand_beside_their_twins(self) -> None:
+        """The stand-in is twice as fast if it is told to be modern; see toy_study.py."""
+        runs, expected = self.study / "runs.toml", self.study / "expected.csv"
+        runs.write_text(runs.read_text(encoding="utf-8").replace("set = {}", 'set = {}\nmodern = ["slow"]', 1), encoding="utf-8")
+        head, *rows = expected.read_text(encoding="utf-8").splitlines()
+        values = {"paper,speed_slow": "1.0,1e-6,"}
+        rows = [",".join(row.split(",")[:9]) + "," + values.get(",".join(row.split(",")[:2]), ",,") + '"x"' for row in rows]
+        expected.write_text("\n".join([head.replace("description", "modern,modern_tolerance,description"), *rows]) + "\n", encoding="utf-8")
+        done = self.compare()
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(self.made(), ["slow", "fast", "slow_modern"])
+        text = (self.results / "paper/report/report.md").read_text(encoding="utf-8")
+        self.assertIn("| speed_slow | m/s | 0.5 |  | 0.5 ± 0.01 | 0.5 | 1 | +0 % | +1e+02 % | 0.5 ± 1e-06 | 1 ± 1e-06 | pass | met; modern not met |", text)
+        self.assertIn("| speed_fast | m/s |  | 1.25 |  | 1 |  | -20 % (paper) |", text)
+        self.assertIn("3 of 3 runs, CPU time 0 s; of these 1 in mode modern, 0 s", text)
+        self.assertIn("3 checks pass, 0 fail; 1 goals met, 0 not met; in mode modern 0 met, 1 not met", text)
+        self.assertRegex(text, r"\| cpu_time_of_pairs \| s \|  \|  \|  \| [\d.e-]+ \| [\d.e-]+ \|")
+        self.assertRegex(text, r"\| slow_modern \| 100 \| 50 \| 1 \| 2\.0 \|")
+        self.compare("--report-only", "toy/slow")
+        expected.write_text(expected.read_text(encoding="utf-8").replace("1.0,1e-6,", "1.1,1e-6,", 1), encoding="utf-8")
+        done = self.compare("--report-only")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("FAIL: toy: speed_slow in mode modern = 1 m/s, recorded 1.1 ± 1e-06", done.stdout)
 
     def test_the_table_goes_into_its_page(self) -> None:
         page = self.study.parent / "COMPARISON.md"

@@ -7,26 +7,28 @@ import re
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "cases"))
-from comparison.cost import in_words, particle_steps, rate_of, reached_time  # noqa: E402
+from comparison.cost import CELL_SHARE, in_words, particle_steps, rate_of, reached_time  # noqa: E402
 from comparison.ledgers import Ledger  # noqa: E402
 from comparison.markdown import inline, to_html  # noqa: E402
 from comparison.measure import ledger_rows, rows_of  # noqa: E402
 from comparison.model import Row  # noqa: E402
 from comparison.report_markdown import BEGIN, END, deeper_headings, moved_links, updated_page  # noqa: E402
 from comparison.study import Expected, Study, StudyError  # noqa: E402
-from comparison.tables import QUANTITY_HEADINGS, error_text, number, quantity_cells  # noqa: E402
+from comparison.tables import QUANTITY_HEADINGS, both, error_text, number, quantity_cells, worst_of  # noqa: E402
 from toy_study import write_study  # noqa: E402
 
 NAN = math.nan
 
 
 def expected(quantity: str = "depth", unit: str = "mm", theory: float = NAN, paper: float = NAN, goal: float = NAN,
-             goal_tolerance: float = NAN, ours: float = NAN, tolerance: float = NAN) -> Expected:
-    return Expected("paper", quantity, unit, theory, paper, goal, goal_tolerance, ours, tolerance, "")
+             goal_tolerance: float = NAN, ours: float = NAN, tolerance: float = NAN, modern: float = NAN,
+             modern_tolerance: float = NAN) -> Expected:
+    return Expected("paper", quantity, unit, theory, paper, goal, goal_tolerance, ours, tolerance, "", modern, modern_tolerance)
 
 
 class Rows(unittest.TestCase):
@@ -76,9 +78,61 @@ class Rows(unittest.TestCase):
     def test_cells_stand_under_their_headings(self) -> None:
         cells = dict(zip(QUANTITY_HEADINGS, quantity_cells(Row(expected(theory=2, goal=3, goal_tolerance=0.5, ours=2.5, tolerance=0.01), 2.6)),
                          strict=True))
-        self.assertEqual(cells, {"quantity": "depth", "unit": "mm", "theory": "2", "paper": "", "goal": "3 ± 0.5", "measured": "2.6",
-                                 "error": "+30 %", "recorded": "2.5 ± 0.01", "check": "FAIL", "goal met": "met"})
+        self.assertEqual(cells, {"quantity": "depth", "unit": "mm", "theory": "2", "paper": "", "goal": "3 ± 0.5",
+                                 "ours (paper's scheme)": "2.6", "ours (modern)": "", "error": "+30 %", "error (modern)": "",
+                                 "recorded": "2.5 ± 0.01", "recorded (modern)": "", "check": "FAIL", "goal met": "met"})
         self.assertEqual(number(0.000123456), "0.0001235")
+
+
+class ModernRows(unittest.TestCase):
+    """What mode modern gave stands in the row of the paper's scheme and is checked by itself."""
+
+    def test_each_is_checked_against_its_own_record(self) -> None:
+        row = expected(theory=0.25, goal=0.25, goal_tolerance=0.01, ours=0.34, tolerance=0.01, modern=0.252, modern_tolerance=0.001)
+        found = Row(row, 0.34, modern=0.2525)
+        self.assertEqual((found.check, found.modern_check, found.goal_state, found.modern_goal_state), ("pass", "pass", "not met", "met"))
+        self.assertAlmostEqual(found.modern_error, 0.01)
+        for other, state in ((expected(theory=0.25, goal=0.28, goal_tolerance=0.01), ""), (expected(goal=0.25, goal_tolerance=0.01), ""),
+                             (expected(theory=0.25, goal=0.25, goal_tolerance=0.001), "not met")):
+            self.assertEqual(Row(other, 0.25, modern=0.252).modern_goal_state, state, "only theory's goals are those of mode modern")
+        self.assertTrue(math.isnan(Row(expected(goal=0.25, goal_tolerance=0.01), 0.25, modern=0.25).modern_error))
+        self.assertAlmostEqual(Row(replace(row, modern_theory=0.5), 0.34, modern=0.51).modern_error, 0.02)
+        self.assertEqual(Row(row, 0.34, modern=0.34).modern_check, "fail")
+        self.assertEqual(Row(row, 0.252, modern=0.252).check, "fail")
+
+    def test_runs_that_are_not_there_are_told_apart(self) -> None:
+        row = expected(ours=0.34, tolerance=0.01, modern=0.252, modern_tolerance=0.001)
+        self.assertEqual(Row(row, 0.34, lacks_modern=True).modern_check, "not run")
+        self.assertEqual(Row(row, 0.34, lacks_runs=True).modern_check, "missing")
+        self.assertEqual(Row(row, NAN, lacks_modern=True, modern=0.252).check, "missing")
+        self.assertEqual(Row(expected(ours=0.34, tolerance=0.01), 0.34).modern_check, "", "nothing was recorded of mode modern")
+        self.assertEqual(Row(expected(modern=0.252, modern_tolerance=0.001), NAN, modern=0.252).check, "", "only mode modern has it")
+
+    def test_values_come_into_the_row_of_their_quantity(self) -> None:
+        rows = rows_of([expected("a", "ms")], {"a": 2e-3, "b": 1.0}, False, {"a": 3e-3, "c": 7.0})
+        self.assertEqual([(row.expected.quantity, row.measured, row.modern) for row in rows[:1]], [("a", 2.0, 3.0)])
+        self.assertEqual([row.expected.quantity for row in rows[1:]], ["b", "c"])
+        self.assertTrue(math.isnan(rows[1].modern) and math.isnan(rows[2].measured))
+
+    def test_ledgers_are_the_worst_of_either(self) -> None:
+        ledgers = {"a": Ledger(1.0, 0.01, 0.0, 1.0, NAN, NAN), "a_modern": Ledger(1.0, 0.03, 0.0, 1.0, NAN, NAN),
+                   "b_modern": Ledger(1.0, 0.02, 0.0, 1.0, NAN, NAN)}
+        row = ledger_rows(ledgers, [], "paper", False, {"a_modern", "b_modern"})[0]
+        self.assertAlmostEqual(row.measured, 1.0)
+        self.assertAlmostEqual(row.modern, 3.0)
+        self.assertIn("in a and a_modern", row.expected.description)
+        recorded = expected("largest_unaccounted_energy", "%", ours=1.0, tolerance=0.1, modern=2.0, modern_tolerance=0.1)
+        row = ledger_rows(ledgers, [recorded], "paper", False, {"a_modern", "b_modern"})[0]
+        self.assertEqual((row.check, row.modern_check), ("pass", "fail"))
+
+    def test_cells(self) -> None:
+        row = expected(theory=2, goal=2, goal_tolerance=0.1, ours=2.5, tolerance=0.01, modern=2.02, modern_tolerance=0.01)
+        cells = dict(zip(QUANTITY_HEADINGS, quantity_cells(Row(row, 2.5, modern=2.04)), strict=True))
+        self.assertEqual([cells[name] for name in ("ours (modern)", "error (modern)", "recorded (modern)", "check", "goal met")],
+                         ["2.04", "+2 %", "2.02 ± 0.01", "pass; modern FAIL", "not met; modern met"])
+        self.assertEqual([both("pass", "pass"), both("pass", ""), both("", "pass")], ["pass", "pass", "modern pass"])
+        self.assertEqual([worst_of(text) for text in ("pass", "pass; modern FAIL", "FAIL; modern pass", "not met; modern met", "modern met", "")],
+                         ["pass", "FAIL", "FAIL", "", "met", ""])
 
 
 class StudyFiles(unittest.TestCase):
@@ -92,6 +146,27 @@ class StudyFiles(unittest.TestCase):
         self.assertEqual(parameters["slow"]["drop"]["velocity"], [0.0, -0.5])
         self.assertEqual(parameters["fast"]["drop"]["velocity"], [0, -1.0])
         self.assertEqual(self.study.parameters(self.study.variants("short")[0])["time"]["end"], 5e-4)
+
+    def test_runs_in_mode_modern_repeat_their_twins(self) -> None:
+        runs = self.study.folder / "runs.toml"
+        before = self.study.variants("paper")
+        runs.write_text(runs.read_text(encoding="utf-8").replace("set = {}", 'set = {"time.end" = 3e-3}\nmodern = ["fast"]', 1)
+                        + '[modern]\nset = {"time.sound_cfl" = 0.4}\n', encoding="utf-8")
+        study = Study(self.study.folder)
+        *own, modern = study.variants("paper")
+        self.assertEqual([variant.name for variant in own], [variant.name for variant in before])
+        self.assertEqual((modern.name, modern.twin), ("fast_modern", "fast"))
+        self.assertEqual(modern.settings, {**own[1].settings, "mode": "modern", "time.sound_cfl": 0.4})
+        self.assertEqual(modern.settings["time.end"], 3e-3)
+        self.assertEqual([variant.name for variant in study.variants("short")], ["slow"], "only the level that says so has them")
+        folders = {name: Path(name) for name in ("fast", "fast_modern", "another")}
+        results = study.results("paper", folders)
+        self.assertEqual((list(results), list(results.modern), list(results.modern.modern)), (["fast"], ["fast"], []))
+        for text, words in (('[levels.paper]\nset = {}\nmodern = ["fats"]\n', "names the run 'fats'"), ("[modern]\nrun = 1\n", "unknown key 'run'"),
+                            ("[runs.a_modern]\nset = {}\n", "are those of runs in mode modern")):
+            runs.write_text(text, encoding="utf-8")
+            with self.assertRaisesRegex(StudyError, re.escape(words)):
+                Study(self.study.folder)
 
     def test_mistakes_in_expected_are_named_with_their_line(self) -> None:
         head = "level,quantity,unit,theory,paper,goal,goal_tolerance,ours,tolerance,description\n"
@@ -108,6 +183,12 @@ class StudyFiles(unittest.TestCase):
             (self.study.folder / "expected.csv").write_text(head + row + "\n", encoding="utf-8")
             with self.assertRaisesRegex(StudyError, re.escape(words)):
                 self.study.expected("paper")
+        modern = head.replace("description", "modern,modern_tolerance,description")
+        (self.study.folder / "expected.csv").write_text(modern + "paper,a,mm,,,,,,,0.3,0.1,x\n", encoding="utf-8")
+        self.assertEqual(self.study.expected("paper")[0].modern, 0.3)
+        (self.study.folder / "expected.csv").write_text(modern + "paper,a,mm,,,,,,,0.3,,x\n", encoding="utf-8")
+        with self.assertRaisesRegex(StudyError, "modern needs its modern_tolerance"):
+            self.study.expected("paper")
         (self.study.folder / "expected.csv").write_text("level,quantity\n", encoding="utf-8")
         with self.assertRaisesRegex(StudyError, "has no column"):
             self.study.expected("paper")
@@ -119,6 +200,12 @@ class Costs(unittest.TestCase):
         cantilever = {"resolution": {"spacing": 2.5e-5}, "time": {"end": 4e-3}, "drop": {"velocity": [0, -0.8]},
                       "solid": {"kind": "cantilever", "length": 8e-3}}
         self.assertAlmostEqual(particle_steps(cantilever) / (4457 * 667736), 1.0, delta=0.01)
+        # In mode modern 292094 steps for 7 ms: four times as long a step.
+        modern = {**cantilever, "mode": "modern", "time": {"end": 7e-3}}
+        self.assertAlmostEqual(particle_steps(modern) / ((1257 + CELL_SHARE * 3200) * 292094), 1.0, delta=0.01)
+        # Where the liquid's sound sets it, twice as long: 134540 steps of the soft cantilever for 16 ms.
+        soft = {**modern, "time": {"end": 16e-3}, "solid": {"kind": "cantilever", "length": 10e-3, "youngs_modulus": 6e6}}
+        self.assertAlmostEqual(particle_steps(soft) / ((1257 + CELL_SHARE * 4000) * 134540), 1.0, delta=0.02)
         drop = {"resolution": {"spacing": 2.5e-5}, "time": {"end": 12e-3, "sound_cfl": 0.2}, "drop": {}}
         self.assertAlmostEqual(particle_steps(drop) / (1257 * 100147), 1.0, delta=0.01)
         plate = {"resolution": {"spacing": 2e-3}, "time": {"end": 1.0}, "drop": {"shape": "none"},

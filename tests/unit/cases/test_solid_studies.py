@@ -40,7 +40,8 @@ class Studies(unittest.TestCase):
                     self.assertTrue(study.variants(level))
                     quantities = [row.quantity for row in study.expected(level)]
                     for variant in study.variants(level):
-                        self.assertTrue(any(quantity.endswith("_" + variant.name) for quantity in quantities), variant.name)
+                        name = variant.twin or variant.name
+                        self.assertTrue(any(quantity.endswith("_" + name) for quantity in quantities), variant.name)
 
 
 class Ball(unittest.TestCase):

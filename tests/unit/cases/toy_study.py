@@ -76,6 +76,7 @@ output = Path(sys.argv[sys.argv.index("--output") + 1])
 with open(os.environ["TOY_LOG"], "a") as log:
     log.write(output.name + " resumed" * ("--restart" in sys.argv) + "\\n")
 speed = -json.loads(settings.get("drop.velocity", "[0, -0.5]"))[1]
+speed *= 2 if settings.get("mode") == "modern" else 1
 end = float(settings.get("time.end", "1e-3"))
 
 information = dict(program="sphdrop", git_commit=os.environ.get("TOY_COMMIT", "{commit}"), status="running", ranks=1)
