@@ -107,16 +107,17 @@ def measure(results: Results) -> dict[str, float]:
 
 
 def draw_lengths(results: Results) -> Figure | None:
-    runs = {length: results[f"L{length}_U0.8"] for length in LENGTHS if f"L{length}_U0.8" in results}
-    if not runs:
+    lengths = [length for length in LENGTHS if f"L{length}_U0.8" in {**results, **results.modern}]
+    if not lengths:
         return None
     figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.1), layout="constrained")
-    for (length, run), colour in zip(runs.items(), LINES):
-        history_lines(left, run, "deflection", MILLI, color=colour, label=f"$L$ = {length} mm")
-        history_lines(right, run, "drop_width", MILLI, color=colour, label=f"$L$ = {length} mm")
-        if f"L{length}_U0.8" in results.modern:
-            for axes, column in ((left, "deflection"), (right, "drop_width")):
-                history_lines(axes, results.modern[f"L{length}_U0.8"], column, MILLI, color=colour, **MODERN)
+    for length, colour in zip(lengths, LINES):
+        for axes, column in ((left, "deflection"), (right, "drop_width")):
+            axes.plot([], [], color=colour, label=f"$L$ = {length} mm")
+            for those, style in ((results, {}), (results.modern, MODERN)):
+                if f"L{length}_U0.8" in those:
+                    run = those[f"L{length}_U0.8"]
+                    history_lines(axes, run, column, MILLI, color=colour, **style)
         depth = theory_of(run).largest_deflection * MILLI
         left.axhline(-depth, xmin=0.97, color=colour, lw=2, solid_capstyle="butt")
         for axes, paper in ((left, PAPER_DEEPEST), (right, PAPER_WIDEST)):
@@ -129,13 +130,13 @@ def draw_lengths(results: Results) -> Figure | None:
     right.plot([], [], color="#5b6470", **PAPER, label="widest in the paper")
     left.set(xlabel="time  (ms)", ylabel=r"$\delta$  (mm)", xlim=(0, None))
     right.set(xlabel="time  (ms)", ylabel="$D$  (mm)", xlim=(0, 4))
-    left.legend()
-    right.legend()
+    for axes in (left, right):
+        axes.legend(loc="lower left", bbox_to_anchor=(-0.05, 1.0), ncols=3, fontsize=6.5, columnspacing=1.0, handlelength=1.6)
     return figure
 
 
 def draw_speeds(results: Results) -> Figure | None:
-    lengths = [length for length in LENGTHS if of_length(results, length)]
+    lengths = [length for length in LENGTHS if of_length(results, length) or of_length(results.modern, length)]
     if not lengths:
         return None
     columns = min(2, len(lengths))
@@ -145,10 +146,12 @@ def draw_speeds(results: Results) -> Figure | None:
         panel.set_axis_off()
     for panel, length in zip(axes.flat, lengths):
         for speed, run in of_length(results, length).items():
-            history_lines(panel, run, "deflection", MILLI, color=LINES[SPEEDS.index(speed)], label=f"{speed:.1f} m/s")
+            history_lines(panel, run, "deflection", MILLI, color=LINES[SPEEDS.index(speed)])
         for speed, run in of_length(results.modern, length).items():
             history_lines(panel, run, "deflection", MILLI, color=LINES[SPEEDS.index(speed)], **MODERN)
         panel.set(title=f"$L$ = {length} mm", xlabel="time  (ms)", ylabel=r"$\delta$  (mm)", xlim=(0, None))
+    for speed, colour in zip(SPEEDS, LINES):
+        axes[0, 0].plot([], [], color=colour, label=f"{speed:.1f} m/s")
     axes[0, 0].legend(title="$U_0$", loc="upper left", title_fontsize=7.5, ncols=2)
     return figure
 
@@ -157,19 +160,19 @@ def draw_theory(results: Results) -> Figure | None:
     """Largest deflection over the speed, period over the length, frequency over the speed."""
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(7.8, 3.0), layout="constrained")
     for length, colour in zip(LENGTHS, LINES):
-        runs = of_length(results, length)
-        if not runs:
+        runs, modern = of_length(results, length), of_length(results.modern, length)
+        if not runs and not modern:
             continue
+        first = theory_of(next(iter({**modern, **runs}.values())))
         speeds = np.array(list(runs))
         left.plot(speeds, [deepest_deflection(run)[1] * MILLI for run in runs.values()], "o", ms=4, color=colour,
                   label=f"{length} mm")
-        slope = theory_of(next(iter(runs.values()))).largest_deflection / next(iter(runs))
+        slope = first.largest_deflection / next(iter({**modern, **runs}))
         left.plot([0, 1.05], [0, slope * 1.05 * MILLI], color=colour, lw=1, dashes=(4, 2))
         periods = [first_mode(run).period for run in runs.values()]
         middle.plot([length] * len(periods), np.array(periods) * MILLI, "o", ms=4, color=colour, mfc="none")
-        theory = theory_of(next(iter(runs.values()))).period
+        theory = first.period
         right.plot(speeds, theory / np.array(periods), "o-", ms=4, color=colour, label=f"{length} mm")
-        modern = of_length(results.modern, length)
         modern_periods = np.array([first_mode(run).period for run in modern.values()])
         left.plot(list(modern), [deepest_deflection(run)[1] * MILLI for run in modern.values()], "D", ms=4, mfc="none", color=colour)
         middle.plot([length] * len(modern), modern_periods * MILLI, "D", ms=4, mfc="none", color=colour)
@@ -177,10 +180,10 @@ def draw_theory(results: Results) -> Figure | None:
     if not left.lines:
         plt.close(figure)
         return None
-    beam = beam_of(next(iter(results.values())))
+    beam = beam_of(next(iter([*results.values(), *results.modern.values()])))
     lengths = np.linspace(6, 21, 100) / MILLI
-    first = 2 * math.pi / beam.angular_frequencies(1)[0]
-    middle.plot(lengths * MILLI, first * (lengths / beam.length) ** 2 * MILLI, color="#5b6470", lw=1, dashes=(4, 2),
+    period = 2 * math.pi / beam.angular_frequencies(1)[0]
+    middle.plot(lengths * MILLI, period * (lengths / beam.length) ** 2 * MILLI, color="#5b6470", lw=1, dashes=(4, 2),
                 label="Eq 44")
     left.plot([], [], color="#5b6470", lw=1, dashes=(4, 2), label="Eq 46")
     if results.modern:

@@ -10,12 +10,13 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from comparison.convergence import Fit
+from comparison.stretched_beam import stretched_deflection
 from comparison.study import Drawing
 from figure_particles import choose_frames, draw_strip
 from figures import LINES
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from modal_beam import draw_check
+from modal_beam import beam_of, draw_check
 from sphdrop_reader import Run
 
 MILLI = 1e3
@@ -61,6 +62,10 @@ def modal_checks(runs: Mapping[str, Run]) -> Figure | None:
     axes = np.array([[figure.add_subplot(grid[row, column]) for column in range(len(runs))] for row in (1, 2)])
     for column, (title, run) in enumerate(runs.items()):
         draw_check(axes[0, column], axes[1, column], run)
+        if not beam_of(run).is_cantilever:
+            times, stretched = run.history["time"] * MILLI, stretched_deflection(run) * MILLI
+            axes[0, column].plot(times, stretched, color=LINES[3], lw=1, label="Euler-Bernoulli with stretching")
+            axes[1, column].plot(times, run.history["deflection"] * MILLI - stretched, color=LINES[3], lw=1)
         axes[0, column].set_title(title)
         if column > 0:
             axes[0, column].set_ylabel("")

@@ -110,6 +110,17 @@ def draw_shapes(results: Results) -> Figure:
     return figure
 
 
+def pressure_profile(snapshot: Snapshot, radius: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Distances from the centre over the radius, and the mean pressure in Pa of rings about them."""
+    position = snapshot["position"][snapshot.fluid]
+    distance = np.hypot(*(position - position.mean(axis=0)).T) / radius
+    bins = np.linspace(0, 1, 21)
+    count = np.histogram(distance, bins)[0]
+    sums = np.histogram(distance, bins, weights=snapshot["pressure"][snapshot.fluid])[0]
+    has_any = count > 0
+    return (0.5 * (bins[:-1] + bins[1:]))[has_any], sums[has_any] / count[has_any]
+
+
 def draw_histories(results: Results) -> Figure:
     figure, (pressure, curvature, profile) = plt.subplots(1, 3, figsize=(7.6, 2.8), layout="constrained")
     for (name, run), colour in zip(results.items(), LINES):
@@ -118,18 +129,14 @@ def draw_histories(results: Results) -> Figure:
         curvature.plot(time, run.history["mean_curvature"] * radius, lw=0.8, color=colour)
         scatter = run.history["curvature_scatter"] * radius
         curvature.fill_between(time, 1 - scatter, 1 + scatter, color=colour, alpha=0.12, lw=0)
-        last = run.snapshots[-1]
-        position = last["position"][last.fluid]
-        distance = np.hypot(*(position - position.mean(axis=0)).T) / radius
-        bins = np.linspace(0, 1, 21)
-        count = np.histogram(distance, bins)[0]
-        sums = np.histogram(distance, bins, weights=last["pressure"][last.fluid])[0]
-        has_any = count > 0
-        profile.plot((0.5 * (bins[:-1] + bins[1:]))[has_any], sums[has_any] / count[has_any], "o-", ms=2.5, color=colour)
+        profile.plot(*pressure_profile(run.snapshots[-1], radius), "o-", ms=2.5, color=colour)
         if name in results.modern:
-            pressure.plot(results.modern[name].history["time"] * MILLI, results.modern[name].history["mean_pressure"], color=colour, **MODERN)
+            modern = results.modern[name]
+            pressure.plot(modern.history["time"] * MILLI, modern.history["mean_pressure"], color=colour, zorder=5, **MODERN)
+            profile.plot(*pressure_profile(modern.snapshots[-1], radius), "D", ms=3, mfc="none", color=colour, **MODERN)
     if results.modern:
-        pressure.plot([], [], color="#5b6470", **MODERN, label="mode modern")
+        profile.plot([], [], "D", ms=3, mfc="none", color="#5b6470", **MODERN, label="mode modern")
+        profile.legend(loc="lower left")
     theory = laplace_pressure(run)
     for axes, value in ((pressure, theory), (curvature, 1.0), (profile, theory)):
         axes.axhline(value, color="#333a44", dashes=(6, 3), lw=0.9)
@@ -148,7 +155,7 @@ def draw(results: Results, folder: Path) -> list[Drawing]:
     pictures = (
         ("shapes.png", draw_shapes, "From the square to the circle of equal area (dashed); brighter is faster.", "Fig. 7"),
         ("laplace.png", draw_histories,
-         "Mean pressure against sigma/R (dashed and long: mode modern), the mean of the curvature and its standard deviation (shaded) against 1/R, and the "
+         "Mean pressure against sigma/R (dashed and long, diamonds: mode modern), the mean of the curvature and its standard deviation (shaded) against 1/R, and the "
          "pressure over the distance from the centre once the drop is at rest.", "Fig. 8"),
     )
     with plt.rc_context(STYLE):

@@ -46,5 +46,17 @@ class ShortComparison(unittest.TestCase):
                 self.assertTrue((self.report / "figures" / study.name / "ledger.png").exists())
 
 
+    def test_runs_in_mode_modern_are_checked_beside_their_twins(self) -> None:
+        text = (self.report / "report.md").read_text(encoding="utf-8")
+        names = [f"{study.name}/{variant.twin}" for study in all_studies() for variant in study.variants("short") if variant.twin]
+        self.assertEqual(names, ["cantilever/L8_U0.8", "free_vibration/rows4"])
+        for study, run in (name.split("/") for name in names):
+            (found,) = (each for each in all_studies() if each.name == study)
+            rows = [row for row in found.expected("short") if row.quantity.endswith(run)]
+            self.assertTrue(rows and all(row.modern_tolerance >= 0 for row in rows), study)
+            self.assertIn(f"| {run}_modern |", text)
+        self.assertIn("of these 1 in mode modern", text)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)
