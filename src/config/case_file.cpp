@@ -177,14 +177,14 @@ void CaseReader::store_values() {
   }
 }
 
-// " (drop.diameter: line 7; resolution.spacing: --set; drop.shape: default)"
+// " (drop.diameter: line 7; resolution.spacing: --set; drop.shape: not given)"
 std::string CaseReader::origins(const Finding& finding, std::size_t drop) const {
   constexpr std::size_t few = 4;
   std::string text;
   for (const std::string_view parameter : finding.keys) {
     const std::string key = key_of_drop(parameter, drop);
     const auto found = given_.find(key);
-    std::string origin = "default";
+    std::string origin = "not given";
     if (found != given_.end()) {
       origin = found->second.override_text.empty() ? fmt::format("line {}", found->second.node.line) : "--set";
     } else if (finding.keys.size() > few) {

@@ -30,6 +30,9 @@ inline std::vector<Finding> run_checks(const std::vector<Check>& checks, const C
   return findings;
 }
 
+/// About how many the case makes.
+double particle_count(const Case& values);
+
 /// Rows of particles across the beam, not rounded.
 inline double rows_across(const Case& values) {
   return values.solid.thickness / values.resolution.spacing;

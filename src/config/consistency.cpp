@@ -33,18 +33,6 @@ double drop_area(const Case::Drop& drop) {
   return drop.shape == DropShape::square ? square : square * std::numbers::pi / 4;
 }
 
-double particle_count(const Case& values) {
-  const double d = values.resolution.spacing;
-  double area = drop_area(values.drop);
-  for (const Case::Drop& drop : values.more_drops) area += drop_area(drop);
-  if (has_beam(values)) {
-    area += (values.solid.length + 2 * values.solid.clamp_length) * values.solid.thickness;
-    area += 4 * values.solid.clamp_length * static_cast<double>(values.solid.clamp_layers) * d;
-  }
-  if (values.solid.kind == SolidKind::rigid_wall) area += values.solid.length * d;
-  return area / (d * d);
-}
-
 Verdict nothing_to_simulate(const Case& values) {
   if (has_drop(values) || has_beam(values)) return {};
   return "nothing moves in this case: give a drop (drop.shape = \"round\" or \"square\") or a beam (solid.kind = "
@@ -158,14 +146,14 @@ Verdict rows_not_whole(const Case& values) {
   const double H = values.solid.thickness;
   if (rows < 2 - whole_number_tolerance) {
     return fmt::format(
-        "solid.thickness = {} m holds {:.3g} rows of spacing {} m; a beam needs at least 2, better 10: take "
+        "solid.thickness = {} m holds {:.3g} row{} of spacing {} m; a beam needs at least 2, better 10: take "
         "resolution.spacing = {} m",
-        H, rows, values.resolution.spacing, H / 10);
+        H, rows, rows == 1 ? "" : "s", values.resolution.spacing, H / 10);
   }
   if (is_whole(rows)) return {};
   return fmt::format(
-      "solid.thickness = {} m is {:.8g} rows of spacing {} m, not a whole number; the nearest "
-      "resolution.spacing that fit are {:.10g} m ({} rows) and {:.10g} m ({} rows)",
+      "solid.thickness = {} m is {:.8g} rows of spacing {} m, not a whole number; the nearest values "
+      "of resolution.spacing that fit are {:.10g} m ({} rows) and {:.10g} m ({} rows)",
       H, rows, values.resolution.spacing, H / std::floor(rows), std::floor(rows), H / std::ceil(rows), std::ceil(rows));
 }
 
@@ -235,9 +223,8 @@ Verdict damping_within_a_step(const Case& values) {
   const StepBound bound = largest_step(values);
   if (!has_beam(values) || values.solid.damping_rate * bound.step <= 1) return {};
   return fmt::format(
-      "solid.damping_rate = {} 1/s would stop the beam within a time step, of which {:.4g} s is the bound of {} at a "
-      "CFL "
-      "factor of 1; take at most {:.4g} 1/s, or about 2 omega to bring a mode of angular frequency omega to rest",
+      "solid.damping_rate = {} 1/s would stop the beam within one time step of {:.4g} s, the bound of {} at a CFL "
+      "factor of 1; take at most {:.4g} 1/s; 2 omega is enough to bring a mode of angular frequency omega to rest",
       values.solid.damping_rate, bound.step, bound.equation, 1 / bound.step);
 }
 
@@ -405,6 +392,18 @@ const std::vector<Check>& contradiction_checks() {
 }
 
 }  // namespace
+
+double particle_count(const Case& values) {
+  const double d = values.resolution.spacing;
+  double area = drop_area(values.drop);
+  for (const Case::Drop& drop : values.more_drops) area += drop_area(drop);
+  if (has_beam(values)) {
+    area += (values.solid.length + 2 * values.solid.clamp_length) * values.solid.thickness;
+    area += 4 * values.solid.clamp_length * static_cast<double>(values.solid.clamp_layers) * d;
+  }
+  if (values.solid.kind == SolidKind::rigid_wall) area += values.solid.length * d;
+  return area / (d * d);
+}
 
 std::vector<Finding> contradictions(const Case& values, const IsUsable& is_usable) {
   return run_checks(contradiction_checks(), values, is_usable);

@@ -126,8 +126,18 @@ Verdict stubby_beam(const Case& values) {
                      values.solid.length, values.solid.thickness);
 }
 
+// Millimetres taken for metres make a run that never ends; large runs on many ranks are meant.
+Verdict many_particles(const Case& values) {
+  constexpr double many = 1e7;
+  const double count = particle_count(values);
+  if (count < many) return {};
+  return fmt::format("the case has about {:.2g} particles; if fewer were meant, check the units of the lengths (m)",
+                     count);
+}
+
 const std::vector<Check>& doubt_checks() {
   static const std::vector<Check> checks = {
+      {{"resolution.spacing", "drop.diameter", "solid.length"}, many_particles},
       {{"resolution.spacing", "solid.thickness"}, few_rows},
       {{"resolution.spacing", "solid.thickness"}, odd_rows},
       {{"solid.length", "solid.thickness"}, stubby_beam},

@@ -21,7 +21,7 @@ std::string same_name_elsewhere(std::string_view name) {
   std::string text;
   for (const Parameter& parameter : parameter_table()) {
     if (parameter.name() != name) continue;
-    text += fmt::format("{}{}, {}", text.empty() ? "" : " or ", parameter.key, place(parameter));
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", parameter.key, place(parameter));
   }
   return text;
 }
@@ -47,7 +47,7 @@ std::string unknown_key_message(std::string_view section, std::string_view name)
   std::string suggestion;
   const std::string elsewhere = same_name_elsewhere(name);
   if (!elsewhere.empty()) {
-    suggestion = fmt::format("; that name belongs to {}", elsewhere);
+    suggestion = fmt::format("; there is {}", elsewhere);
   } else if (const auto here = nearest_name(name, names_here)) {
     suggestion = fmt::format("; did you mean {}{}{}?", section, section.empty() ? "" : ".", *here);
   } else if (const auto anywhere = nearest_name(key, keys)) {

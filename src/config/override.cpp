@@ -79,7 +79,8 @@ Override parse_override(const std::string& text) {
   } else if (value.empty()) {
     parsed.mistake = fmt::format("{} has no value after the =", parsed.key);
   } else if (std::any_of(value.begin(), value.end(), is_control) || first_invalid_utf8(value)) {
-    parsed.mistake = fmt::format("the value of {} holds characters that are not text", parsed.key);
+    parsed.mistake = fmt::format(
+        "the value of {} holds a line break, another control character or bytes that are not UTF-8", parsed.key);
   } else {
     const bool takes_words = std::holds_alternative<WordParameter>(parameter->value) ||
                              std::holds_alternative<TextParameter>(parameter->value);

@@ -163,7 +163,7 @@ struct Storing {
     const auto found = std::find(word.words.begin(), word.words.end(), node.text);
     if (found == word.words.end()) {
       const auto nearest = nearest_name(node.text, word.words);
-      return fmt::format("= {} is not one of its words; allowed: {}{}", quoted(node.text.substr(0, 80)),
+      return fmt::format("= {} is not one of the words allowed: {}{}", quoted(node.text.substr(0, 80)),
                          words_text(word.words), nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "");
     }
     word.set(values, static_cast<std::size_t>(found - word.words.begin()));

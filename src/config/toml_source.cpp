@@ -223,8 +223,10 @@ std::string quoted_name(const std::string& message) {
   }
   const Marked& mark = marks.front();
   if (!mark.comment.empty() && mark.comment != "here") message += ", " + mark.comment;
-  const std::string slip = likely_slip(mark.text);
-  if (!slip.empty()) message = fmt::format("{} ({})", slip, message);
+  std::string slip = likely_slip(mark.text);
+  if (slip.empty() && message.find("unknown value") != std::string::npos)
+    slip = "behind the = a number (1e-3), a text in quotes or [x, y] is wanted";
+  if (!slip.empty()) message = fmt::format("{} (the reader of TOML says: {})", slip, message);
   fail(mistake_at(source_name, mark.line, mark.text, "not valid TOML: " + message));
 }
 

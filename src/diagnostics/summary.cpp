@@ -83,6 +83,9 @@ void write_drop(Text& text, const RunSummary::Drop& drop) {
     text.entry("largest width",
                fmt::format("{:.4f} mm = {:.3f} D0 at {}", to_milli * drop.largest_width.value,
                            drop.largest_width.value / drop.initial_diameter, milliseconds(drop.largest_width.time)));
+  if (drop.largest_mach_number)
+    text.entry("largest Mach number", fmt::format("{:.4f} at {}", drop.largest_mach_number->value,
+                                                  milliseconds(drop.largest_mach_number->time)));
   if (drop.restitution) text.entry("restitution", fmt::format("{:.3f}", *drop.restitution));
   if (!drop.rigid_motion) return;
   const RunSummary::RigidMotion& motion = *drop.rigid_motion;

@@ -54,6 +54,7 @@ struct RunSummary {
     double initial_diameter = 0;  ///< D0, m
     Peak largest_width;           ///< s, m
     std::optional<double> restitution;
+    std::optional<Peak> largest_mach_number;  ///< of the liquid: s, speed of a particle over the speed of sound
     std::optional<RigidMotion> rigid_motion;  ///< of a rigid drop; its width goes unsaid
   };
   std::optional<Drop> drop;

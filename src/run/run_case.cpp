@@ -9,44 +9,19 @@
 #include <filesystem>
 #include <optional>
 
-#include "config/case_error.hpp"
 #include "config/case_file.hpp"
 #include "config/effective_case.hpp"
 #include "config/parameter_store.hpp"
-#include "config/toml_source.hpp"
-#include "io/output_directory.hpp"
-#include "io/provenance.hpp"
-#include "io/run_lock.hpp"
-#include "run/checkpointer.hpp"
 #include "run/exit_code.hpp"
-#include "run/restart.hpp"
-#include "run/results_folder.hpp"
+#include "run/recorded_run.hpp"
 #include "run/say.hpp"
+#include "run/shared_case.hpp"
 #include "setup/initial_state.hpp"
 #include "simulation/case_check.hpp"
-#include "simulation/recorder.hpp"
 
 namespace sphdrop {
 
 namespace {
-
-// The text of the case file, read by rank 0 alone; its mistakes are thrown on all ranks.
-std::string shared_case_text(const Communicator& communicator, const std::string& path) {
-  std::string text;
-  std::vector<std::string> mistakes;
-  if (communicator.rank() == 0) {
-    try {
-      text = read_text_file(path);
-    } catch (const CaseError& error) {
-      mistakes = error.mistakes();
-    }
-  }
-  std::string joined = fmt::format("{}", fmt::join(mistakes, "\n"));
-  communicator.broadcast(joined, 0);
-  if (!joined.empty()) throw CaseError({joined});
-  communicator.broadcast(text, 0);
-  return text;
-}
 
 // Whether standard error ends on a terminal. Under mpirun it is a pipe to it, so its own standard error is looked at.
 bool someone_watches_stderr() {
@@ -69,14 +44,6 @@ std::optional<double> walltime_limit(const CommandLine& command, std::chrono::st
   return std::min(limit.value_or(job_limit), job_limit);
 }
 
-// Whether there is a checkpoint that the user wants to go on from.
-bool goes_on(const Communicator& communicator, const CommandLine& command, const std::filesystem::path& directory) {
-  if (!command.restart || *command.restart != "auto") return command.restart.has_value();
-  std::vector<std::int64_t> found{static_cast<std::int64_t>(find_checkpoints(directory).size())};
-  communicator.broadcast(found, 0);
-  return found[0] > 0;
-}
-
 }  // namespace
 
 int run_case(const Communicator& communicator, const CommandLine& command, const std::vector<std::string>& arguments,
@@ -97,85 +64,38 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     return success;
   }
 
-  const std::filesystem::path directory = input.output.directory;
-  prepare_output_directory(communicator, directory);
-  refuse_to_overwrite_case(communicator, directory, command.case_file, text, input);
-  const RunLock lock(communicator, directory);
-  std::optional<Restart> restart;
-  if (goes_on(communicator, command, directory)) {
-    restart = find_restart(communicator, directory, *command.restart == "auto" ? "latest" : *command.restart, input);
-    for (const std::string& note : restart->notes) say(communicator, stderr, note + "\n");
-  } else {
-    if (!command.fresh) refuse_to_lose_checkpoints(communicator, directory);
-    remove_earlier_results(communicator, directory);
-  }
-  write_effective_case(communicator, directory, input);
-  RunRecord record(communicator, arguments);
-  if (restart) {
-    record.set("restarted_from", restart->checkpoint.path.filename().string());
-    record.set("restarted_at_step", restart->checkpoint.header.step);
-  }
-  record.write(communicator, directory);
-
-  Simulation simulation(communicator, input, initial.fluid, initial.solid);
-  if (restart) taking_up([&] { simulation.restore(restart->checkpoint); });
-  RecorderOptions options;
-  options.directory = directory;
-  options.end_time = command.until ? std::min(*command.until, input.time.end) : input.time.end;
-  options.version = version_text();
+  RecordedRunOptions options;
+  options.case_file = command.case_file;
+  options.case_text = text;
+  options.restart = command.restart;
+  options.fresh = command.fresh;
+  options.until = command.until;
+  options.walltime_limit = walltime_limit(command, start);
+  options.start = start;
   options.progress = command.quiet              ? Progress::Mode::quiet
                      : someone_watches_stderr() ? Progress::Mode::terminal
                                                 : Progress::Mode::log;
-  Recorder recorder =
-      taking_up([&] { return Recorder(simulation, options, restart ? &restart->checkpoint : nullptr); });
-  Checkpointer checkpointer(simulation, recorder,
-                            {directory, version_text(), build_info().git_commit, start, walltime_limit(command, start),
-                             restart ? restart->checkpoint.path : std::filesystem::path()});
-  restart.reset();
+  options.arguments = arguments;
+  RecordedRun run(communicator, input, initial, options);
+  const Simulation& simulation = run.simulation();
   if (simulation.time() < 0 && !command.quiet)
     say(communicator, stderr,
         fmt::format("the drop comes to rest for {:.6g} ms before t = 0; until then nothing is written\n",
                     -1e3 * simulation.time()));
-  try {
-    for (;;) {
-      simulation.settle();
-      if (const std::string why = checkpointer.act(); !why.empty()) {
-        recorder.interrupt();
-        record.finish("interrupted: " + why);
-        record.write(communicator, directory);
-        say(communicator, stderr,
-            fmt::format("sphdrop: {}: stopped at step {}, t = {:.6g} s. To go on: --restart latest ({})\n", why,
-                        simulation.step(), simulation.time(), checkpointer.last_checkpoint().string()));
-        return interrupted;
-      }
-      const bool is_last = simulation.time() >= options.end_time;
-      if (is_last) checkpointer.finish();
-      simulation.evaluate();
-      recorder.observe();
-      if (is_last) break;
-      simulation.move(checkpointer.wish());
-    }
-  } catch (const SafetyError& error) {
-    const std::string last = recorder.last_snapshot().string();
-    std::string message = fmt::format("{}\nLast good snapshot: {}", error.what(), last.empty() ? "none" : last);
-    record.finish(std::string("stopped: ") + error.what());
-    try {
-      record.write(communicator, directory);
-    } catch (const RunRecordError& loss) {
-      message += fmt::format("\nwarning: {}", loss.what());
-    }
-    throw SafetyError(message);
+  run.arrive();
+  while (run.stopped().empty() && !run.is_at_end()) {
+    run.go_on();
+    run.arrive();
   }
-  const std::uint64_t hash = recorder.finish();
-  const RunSummary summary = recorder.summary();
-  record.set("particles", summary.particles);
-  record.set("steps", summary.steps);
-  record.set("simulated_time", summary.simulated_time);
-  record.set("load_imbalance", summary.load_imbalance);
-  for (const PhaseTime& phase : summary.phases) record.set("seconds in " + phase.name, phase.seconds);
-  record.finish("completed", hash);
-  record.write(communicator, directory);
-  say(communicator, stdout, command.quiet ? fmt::format("state hash {:016x}\n", hash) : summary_text(summary));
+  if (!run.stopped().empty()) {
+    say(communicator, stderr,
+        fmt::format("sphdrop: {}: stopped at step {}, t = {:.6g} s. To go on: --restart latest ({})\n", run.stopped(),
+                    simulation.step(), simulation.time(), run.last_checkpoint().string()));
+    return interrupted;
+  }
+  const RunSummary summary = run.finish();
+  say(communicator, stdout,
+      command.quiet ? fmt::format("state hash {:016x}\n", summary.state_hash) : summary_text(summary));
   return success;
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "diagnostics/progress.hpp"
-#include "diagnostics/theory.hpp"
+#include "simulation/case_numbers.hpp"
 #include "simulation/simulation.hpp"
 
 namespace sphdrop {
@@ -80,53 +80,7 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
       smallest, largest, ghosts, distribution.quality().imbalance, distribution.quality().cut_edges,
       distribution.quality().occupied_cells);
 
-  const double speed = std::hypot(c.drop.velocity_x, c.drop.velocity_y);
-  if (c.drop.is_liquid()) {
-    const double sigma = c.surface_tension.coefficient;
-    if (speed > 0 && sigma > 0)
-      text += fmt::format("Weber number        {:.4g}\n", weber_number(c.fluid.density, speed, c.drop.diameter, sigma));
-    const double length = c.drop.diameter, mu = c.fluid.viscosity;
-    if (speed > 0 && mu > 0) {
-      text += fmt::format("Reynolds number     {:.4g} by fluid.viscosity",
-                          reynolds_number(c.fluid.density, speed, length, mu));
-      const double artificial =
-          c.fluid.artificial_viscosity_alpha * c.fluid.sound_speed * simulation.parameters().smoothing_length / 16;
-      text += c.fluid.viscosity_form == ViscosityForm::physical
-                  ? "\n"
-                  : fmt::format("; the artificial viscosity is about {:.3g} m2/s: {:.4g}\n", artificial,
-                                speed * length / artificial);
-    }
-  }
-  if (c.drop.is_rigid()) {
-    const RigidBody& body = simulation.rigid_body().body();
-    text += fmt::format("rigid drop          {:.6g} kg/m, moment of inertia {:.6g} kg m2/m\n", body.mass,
-                        body.moment_of_inertia);
-  }
-  if (c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam) {
-    const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
-                              c.solid.thickness};
-    const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
-    const double omega = is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam);
-    text += fmt::format("beam's first period {:.4g} ms in theory (Eqs 43, 44)\n", 1e3 * period_of(omega));
-    if (is_cantilever && c.solid.initial_tip_velocity != 0)
-      text += fmt::format("swing of its end    {:.4g} mm to either side in theory\n",
-                          1e3 * std::abs(c.solid.initial_tip_velocity) / omega);
-    if (c.gravity.y < 0)
-      text += fmt::format("depth under weight  {:.4g} mm of {} at rest, in theory for small slopes\n",
-                          1e3 * (is_cantilever ? cantilever_depth_under_weight(beam, -c.gravity.y)
-                                               : fixed_fixed_depth_under_weight(beam, -c.gravity.y)),
-                          is_cantilever ? "the free end" : "mid-span");
-    if (simulation.parameters().damping_rate > 0)
-      text += fmt::format("damping of the beam {:.4g} of critical in its first mode\n",
-                          damping_ratio(simulation.parameters().damping_rate, omega));
-    if (is_cantilever && c.drop.shape == DropShape::round && c.drop.velocity_y < 0) {
-      const double depth =
-          cantilever_largest_deflection(beam, round_drop_mass(c.drop.density, c.drop.diameter), -c.drop.velocity_y);
-      text += fmt::format("largest deflection  {:.4g} mm by Eq 46, {:.3g} of the length\n", 1e3 * depth,
-                          relative_deflection(depth, c.solid.length));
-    }
-    text += fmt::format("rows across         {:.0f}\n", std::round(c.solid.thickness / c.resolution.spacing));
-  }
+  text += case_numbers_text(simulation);
   return text;
 }
 

@@ -23,6 +23,9 @@ std::vector<HistoryColumn> history_columns() {
   return columns;
 }
 
+// Pressures of the order rho v^2 change the density by the square of this.
+constexpr double nearly_incompressible_mach_number = 0.1;
+
 std::optional<double> if_known(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
@@ -60,6 +63,10 @@ std::vector<CheckpointNumbers> Recorder::save() const {
            extremes_.to_numbers()},
           {"ringing_times", "s", "times of the history's rows since the last contact", ringing_times_},
           {"ringing_deflections", "m", "deflections at these times", ringing_deflections_},
+          {"largest_mach_number",
+           "-",
+           "when the liquid was fastest (s), and that speed over fluid.sound_speed",
+           {largest_mach_number_.time, largest_mach_number_.value}},
           {"due_times",
            "s",
            "next row, next snapshot; the intervals of both when this was written",
@@ -81,6 +88,10 @@ void Recorder::restore(const Checkpoint& checkpoint) {
   } catch (const std::invalid_argument& error) {
     throw CheckpointError(fmt::format("{}: {}", checkpoint.path.string(), error.what()));
   }
+  // One written before it was watched does not have it.
+  for (const CheckpointNumbers& numbers : checkpoint.numbers)
+    if (numbers.name == "largest_mach_number" && numbers.values.size() == 2)
+      largest_mach_number_ = {numbers.values[0], numbers.values[1]};
   ringing_times_ = checkpoint.numbers_of("ringing_times");
   ringing_deflections_ = checkpoint.numbers_of("ringing_deflections");
   const std::vector<double>& due = checkpoint.numbers_of("due_times");
@@ -119,7 +130,27 @@ void Recorder::on_first_rank(F&& f) {
   if (!error.empty()) throw HistoryError(error);
 }
 
+// The speed is what the time step rests on, which every rank knows at every step.
+void Recorder::watch_speed() {
+  const Case& c = simulation_.input();
+  if (!c.drop.is_liquid()) return;
+  const double speed = simulation_.largest_drop_speed(), number = speed / c.fluid.sound_speed;
+  if (number <= largest_mach_number_.value) return;
+  const bool is_known = largest_mach_number_.value > nearly_incompressible_mach_number;
+  largest_mach_number_ = {simulation_.time(), number};
+  if (number <= nearly_incompressible_mach_number || is_known || simulation_.communicator().rank() != 0) return;
+  progress_.finish();
+  fmt::print(
+      stderr,
+      "warning: step {}, t = {:.6g} s: a particle of the liquid moves at {:.4g} m/s, more than {} of "
+      "fluid.sound_speed = {:.6g} m/s: there the liquid is compressed by about 1 % or more. If it is more than a "
+      "few drops thrown off, run again with fluid.sound_speed = {:.3g} or more\n",
+      simulation_.step(), simulation_.time(), speed, nearly_incompressible_mach_number, c.fluid.sound_speed,
+      2 * speed / nearly_incompressible_mach_number);
+}
+
 void Recorder::observe() {
+  watch_speed();
   const double time = simulation_.time();
   const Case& c = simulation_.input();
   if (time < next_row_ && time < next_snapshot_) return;
@@ -217,7 +248,8 @@ RunSummary Recorder::summary() const {
 
   if (has_drop && extremes_.width().sampled()) {
     r.drop = RunSummary::Drop{
-        c.drop.diameter, *extremes_.width().sampled(), has_solid ? extremes_.restitution() : std::nullopt, {}};
+        c.drop.diameter, *extremes_.width().sampled(), has_solid ? extremes_.restitution() : std::nullopt, {}, {}};
+    if (c.drop.is_liquid()) r.drop->largest_mach_number = largest_mach_number_;
     if (c.drop.is_rigid() && last_)
       r.drop->rigid_motion = RunSummary::RigidMotion{
           {last_->drop_velocity_x, last_->drop_velocity_y}, last_->drop_angle, first_->drop_spin, last_->drop_spin};

@@ -49,6 +49,7 @@ class Recorder {
 
  private:
   void restore(const Checkpoint& checkpoint);
+  void watch_speed();
   void write_row();
   void write_snapshot();
   std::optional<double> ringing_period() const;
@@ -63,6 +64,7 @@ class Recorder {
   Extremes extremes_;
   std::vector<double> ringing_times_, ringing_deflections_;  // since the last contact
   std::optional<Observation> first_, last_;
+  Peak largest_mach_number_;  // of the liquid, at any step
   double next_row_ = 0, next_snapshot_ = 0;
   std::int64_t first_step_;
   std::int64_t last_snapshot_step_ = -1;

@@ -227,19 +227,28 @@ void Simulation::restore(const Checkpoint& checkpoint) {
 }
 
 SavedSimulation Simulation::save() const {
-  return {StoredParticles("fluid", fluid_, fluid_total_),
-          StoredParticles("solid", solid_, solid_total_),
-          {clock_numbers({time_, step_, steps_.previous}),
-           {"surface", "-",
-            "surface tension: whether the curves were detected, length and base that came with detections (m)",
-            surface_tension_.to_numbers()},
-           {"contact", "-", "record of the contact, its heat and the load of the last step", contact_.to_numbers()},
-           {"rigid_body", "-", "the drop as a rigid body", rigid_body_.to_numbers()},
-           {"gauge_pressure", "-",
-            "the drop's gauge pressure and what it tends to (Pa), area within the curves (m2), energy by its changes "
-            "(J/m)",
-            gauge_.to_numbers()},
-           {"shifting", "J/m", "energy that shifts have added", shifting_.to_numbers()}}};
+  return {
+      StoredParticles("fluid", fluid_, fluid_total_),
+      StoredParticles("solid", solid_, solid_total_),
+      {clock_numbers({time_, step_, steps_.previous}),
+       {"surface", "-",
+        "surface tension: whether the curves were detected, length and base that came with detections (m)",
+        surface_tension_.to_numbers()},
+       {"contact", "-", "record of the contact, its heat and the load of the last step", contact_.to_numbers()},
+       {"rigid_body", "-",
+        "the drop as a rigid body, none if it is liquid: mass (kg/m), moment of inertia (kg m2/m), centre x, y (m), "
+        "angle (rad); half a step back velocity x, y (m/s), spin (rad/s); acceleration x, y (m/s2), angular "
+        "(rad/s2); velocity x, y (m/s), spin (rad/s)",
+        rigid_body_.to_numbers()},
+       {"gauge_pressure", "-",
+        "the drop's gauge pressure and what it tends to (Pa), area within the curves (m2), energy by its changes "
+        "(J/m)",
+        gauge_.to_numbers()},
+       {"shifting", "J/m", "energy that shifts have added", shifting_.to_numbers()}}};
+}
+
+double Simulation::largest_drop_speed() const {
+  return std::sqrt(squared_drop_speed_);
 }
 
 void Simulation::settle() {
@@ -259,6 +268,7 @@ void Simulation::evaluate() {
       surface_tension_.is_enabled() &&
       (step_ == 0 || maxima[squared_detection_displacement] >= surface_tension_.largest_squared_displacement());
   const double squared_speed_now = maxima[squared_speed], squared_liquid_speed_now = maxima[squared_liquid_speed];
+  squared_drop_speed_ = squared_liquid_speed_now;
   redistribute_if_due(maxima[squared_displacement], maxima[squared_solid_displacement]);
 
   solid_step_->predict(solid_, steps_.previous);

@@ -80,6 +80,8 @@ class Simulation {
   std::int64_t step() const { return step_; }
   /// The step to come, s; good after evaluate().
   double time_step() const { return steps_.next; }
+  /// Of the fastest particle of the drop on any rank at the last half step, m/s; good after evaluate().
+  double largest_drop_speed() const;
 
   const Case& input() const { return case_; }
   const Communicator& communicator() const { return communicator_; }
@@ -158,6 +160,7 @@ class Simulation {
   StepLengths steps_;
   std::span<const double> settled_;  // what move() left under way, once it is known; empty before
   double request_ = 0;
+  double squared_drop_speed_ = 0;
   double energy_of_shift_;  // at the surface's owner, J/m; minus infinity elsewhere and where nothing is shifted
   bool is_distributed_ = false;
   bool detection_is_due_ = true;

@@ -256,6 +256,7 @@ TEST(Warnings, SpeakOfWhatRunsButMisleads) {
   expect_warning({"fluid.artificial_viscosity_alpha=0"}, "will clump");
   expect_warning({"fluid.density_correction_interval=0"}, "without the correction");
   expect_warning({"solid.length=9e-4"}, "beam theory");
+  expect_warning({"drop.diameter=0.1"}, "check the units");
   expect_warning({"fluid.density_treatment=none"}, "density_treatment = \"none\": without the correction");
   expect_warning({"fluid.density_treatment=density_diffusion", "fluid.density_diffusion=0"}, "without the correction");
   expect_warning({"fluid.density_treatment=density_diffusion", "fluid.density_correction_interval=0"}, "");

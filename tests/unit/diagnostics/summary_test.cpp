@@ -16,7 +16,7 @@ RunSummary full() {
   run.simulated_time = 8e-3;
   run.steps = 1600000;
   run.contact = RunSummary::Contact{0.1e-3, 3.45e-3, 20e-6, {{3.1e-3, 3.15e-3}}, 2.82e-3};
-  run.drop = RunSummary::Drop{1e-3, {1.22e-3, 1.846e-3}, 0.55, {}};
+  run.drop = RunSummary::Drop{1e-3, {1.22e-3, 1.846e-3}, 0.55, Peak{0.12e-3, 0.0432}, {}};
   run.beam = RunSummary::Beam{{1.254e-3, 0.2863e-3}, 8e-3, 2.80e-3, 2.76e-3, 0.243e-3};
   run.momentum = MomentumLedger{{0.0, -0.8e-3}, {1e-6, 0.3e-3}, {-1e-6, -1.2e-3}, {0.0, -0.1e-3}};
   run.energy = {{"kinetic, drop", 250e-6, 50e-6}, {"surface", 226e-6, 236e-6}, {"dissipated", 0.0, 185e-6}};
@@ -62,6 +62,7 @@ TEST(Summary, ContactDropAndBeam) {
   EXPECT_NE(text.find(" 3.1000 to 3.1500 ms\n"), std::string::npos);
   EXPECT_EQ(value_of(text, "99 % of the impulse by"), "2.8200 ms, 2.7200 ms after first contact");
   EXPECT_EQ(value_of(text, "largest width"), "1.8460 mm = 1.846 D0 at 1.2200 ms");
+  EXPECT_EQ(value_of(text, "largest Mach number"), "0.0432 at 0.1200 ms");
   EXPECT_EQ(value_of(text, "restitution"), "0.550");
   EXPECT_EQ(value_of(text, "largest deflection"), "0.2863 mm (Eq 46: 0.2430 mm, ratio 1.178)");
   EXPECT_EQ(value_of(text, "reached at"), "1.2540 ms");
