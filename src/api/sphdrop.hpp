@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sphdrop::v1 {
@@ -115,7 +116,8 @@ class Simulation {
   /// Calls it now and at the first instant at or after every multiple of `interval`, s; not before t = 0.
   void every(double interval, Observer observer);
 
-  /// A column of history.csv at this instant; NaN for what the case does not have.
+  /// A column of history.csv at this instant; NaN for what the case does not have. `unaccounted` counts from the first
+  /// call of this.
   double observed(const std::string& name);
   static std::vector<Quantity> observed_quantities();
 

@@ -67,7 +67,8 @@ Verdict inviscid(const Case& values) {
   if (!values.drop.is_liquid() || fluid.viscosity_form == ViscosityForm::physical ||
       fluid.artificial_viscosity_alpha > 0)
     return {};
-  return "fluid.artificial_viscosity_alpha = 0: the drop's particles will clump";
+  return "fluid.artificial_viscosity_alpha = 0: the drop's particles will clump. Take 0.1, the paper's, or "
+         "fluid.viscosity_form = \"physical\" with fluid.shifting = \"on\"";
 }
 
 Verdict inviscid_physically(const Case& values) {
@@ -106,7 +107,11 @@ Verdict uncorrected_density(const Case& values) {
                       : fluid.density_treatment == DensityTreatment::density_diffusion
                           ? "fluid.density_diffusion = 0"
                           : "fluid.density_correction_interval = 0";
-  return fmt::format("{}: without the correction all particles pair up and the curvature's noise triples", cause);
+  return fmt::format(
+      "{}: without the correction all particles pair up and the curvature's noise triples. Take "
+      "fluid.density_treatment = "
+      "\"moving_least_squares\" with fluid.density_correction_interval = 20",
+      cause);
 }
 
 // It falls off faster than the spline: at the same h its sums rest on fewer neighbours and are noisier.

@@ -15,6 +15,16 @@ Case case_of(const Checkpoint& checkpoint) {
   return parse_case_text(checkpoint.header.case_text, "its case", {}).values;
 }
 
+/// What f() returns; a checkpoint that cannot be had is told with what else there is to do.
+template <class F>
+auto advised(const std::string& advice, F&& f) {
+  try {
+    return f();
+  } catch (const CheckpointError& error) {
+    throw CheckpointError(fmt::format("{}; {}", error.what(), advice));
+  }
+}
+
 std::string change_text(const ParameterChange& change) {
   return fmt::format("{} was {}, is now {}", change.key, change.before, change.after);
 }
@@ -41,11 +51,14 @@ Restart find_restart(const Communicator& communicator, const std::filesystem::pa
   Restart restart;
   taking_up([&] {
     if (choice == "latest") {
-      LatestCheckpoint latest = read_latest_checkpoint(communicator, directory);
+      LatestCheckpoint latest = advised("--fresh instead of --restart begins anew",
+                                        [&] { return read_latest_checkpoint(communicator, directory); });
       restart.checkpoint = std::move(latest.checkpoint);
       for (const std::string& why : latest.refused) restart.notes.push_back("warning: passed over " + why);
     } else {
-      restart.checkpoint = read_checkpoint(communicator, choice);
+      const bool is_word = choice.find_first_of("./") == std::string::npos;
+      const auto read = [&] { return read_checkpoint(communicator, choice); };
+      restart.checkpoint = is_word ? advised("--restart takes latest, auto or a checkpoint's file", read) : read();
     }
     // Older ones in the same folder are of the same run, and so of the same case.
     if (const std::string objection = restart_objection(restart.checkpoint, input); !objection.empty())

@@ -174,14 +174,20 @@ void refuse_overlap(const Case& input, const InitialState& state) {
       contact.apply({fluid.x, fluid.y, state.fluid.masses, unused_x, unused_y},
                     {solid.x, solid.y, unused_force_x, unused_force_y}, {1.0, contact_distance, 0.0});
   if (overlap.largest_overlap <= 1e-6 * d) return;
-  throw SetupError(
-      fmt::format("the drop overlaps the solid at the start: the particle at x = {:.6g} m, y = {:.6g} m is nearer to "
-                  "the solid than "
-                  "the contact distance of {:g} m by {:.3g} m and would be shot away; make drop.gap (now {:g} m) "
-                  "larger by at least "
-                  "that much, or move the drop (drop.centre_x, now {:g} m) off the clamps",
-                  fluid.x[overlap.deepest], fluid.y[overlap.deepest], contact_distance, overlap.largest_overlap,
-                  input.drop.gap, state.drop_centre.x));
+  const bool is_above = input.drop.placement == DropPlacement::above_solid;
+  const std::string advice =
+      is_above ? fmt::format(
+                     "make drop.gap (now {:g} m) larger by at least that much, or move the drop (drop.centre_x, "
+                     "now {:g} m) off the clamps",
+                     input.drop.gap, state.drop_centre.x)
+               : fmt::format(
+                     "move the drop away by at least that much (drop.centre_x, drop.centre_y, now {:g} m and {:g} "
+                     "m), or leave out drop.placement, which puts it above the solid",
+                     state.drop_centre.x, state.drop_centre.y);
+  throw SetupError(fmt::format(
+      "the drop overlaps the solid at the start: the particle at x = {:.6g} m, y = {:.6g} m is nearer to "
+      "the solid than the contact distance of {:g} m by {:.3g} m and would be shot away; {}",
+      fluid.x[overlap.deepest], fluid.y[overlap.deepest], contact_distance, overlap.largest_overlap, advice));
 }
 
 }  // namespace

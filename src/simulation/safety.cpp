@@ -63,7 +63,9 @@ void Simulation::stop_with_diagnosis() {
         "or look at the last snapshots for what went wrong{}.",
         step_, time_, finite ? "a particle is faster than safety.speed_limit" : "a value is not a number", all.size(),
         all.size() == 1 ? "" : "s", describe(first),
-        finite ? fmt::format("; safety.speed_limit is {:.6g} m/s", case_.safety.speed_limit) : std::string()));
+        finite ? fmt::format("; if such speeds are meant, raise safety.speed_limit, now {:.6g} m/s",
+                             case_.safety.speed_limit)
+               : std::string()));
   }
   // Otherwise it was the contact's overlap, which its owner knows about.
   std::vector<double> deepest;

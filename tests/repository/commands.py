@@ -8,8 +8,9 @@ QUICKSTART = ("cases/quickstart/case.cfg", "--output", "results/quickstart", "--
 BRIEFLY = "--set time.end=2e-7"
 RUN: dict[str, str] = {
     "build/release/src/sphdrop --list-parameters": "",
-    "build/release/src/sphdrop --check cases/cantilever/case.cfg": "",
-    "build/release/src/sphdrop --print-case cases/cantilever/case.cfg": "",
+    "build/release/src/sphdrop --check my_drop.cfg": "",
+    "build/release/src/sphdrop --print-case my_drop.cfg": "",
+    "mpirun -np 2 build/release/src/sphdrop my_drop.cfg": BRIEFLY,
     "mpirun -np 2 build/release/src/sphdrop cases/cantilever/case.cfg --output results/cantilever": BRIEFLY,
     "mpirun -np 2 build/release/src/sphdrop cases/cantilever/case.cfg --set solid.length=12e-3 --until 1e-3": BRIEFLY,
     "mpirun -np 2 build/release/src/sphdrop cases/cantilever/case.cfg --output results/cantilever --max-walltime 0:30": BRIEFLY,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -75,6 +76,9 @@ class Running(unittest.TestCase):
         program.symlink_to(os.environ["SPHDROP_PROGRAM"])
         case, _, results, *words = QUICKSTART
         program_output(str(ROOT / case), "--output", str(self.tree / results), *words)
+        # The case that README.md shows.
+        (case,) = re.findall(r"^```toml\n(name = \"my_drop\".*?)^```", text_of(Path("README.md")), flags=re.DOTALL | re.MULTILINE)
+        (self.tree / "my_drop.cfg").write_text(case, encoding="utf-8")
         launcher = self.tree.parent / "bin/mpirun"
         launcher.parent.mkdir()
         launcher.write_text(f'#!/bin/sh\nexec "{os.environ["SPHDROP_MPIEXEC"]}" "$@"\n', encoding="utf-8")
@@ -88,7 +92,7 @@ class Running(unittest.TestCase):
                                       text=True, check=False, timeout=100, stdin=subprocess.DEVNULL)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 self.assertNotIn("error", done.stderr.lower())
-        for product in ("results/cantilever/history.csv", "results/cantilever/report.html", "table.csv"):
+        for product in ("results/my_drop/history.csv", "results/cantilever/history.csv", "results/cantilever/report.html", "table.csv"):
             self.assertTrue((self.tree / product).is_file(), product)
 
 

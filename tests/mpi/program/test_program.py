@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 import sys
 import unittest
 from pathlib import Path
+
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 import running_program  # noqa: E402
@@ -98,6 +101,35 @@ class Results(ProgramTest):
             self.assertIn(part, result.stdout)
 
 
+class MachNumber(ProgramTest):
+    def test_is_watched_at_every_step_and_warned_of_once(self) -> None:
+        found = []
+        for ranks in (1, 3):
+            result = run(self.case, "--output", self.directory / str(ranks), ranks=ranks)
+            self.assertEqual(result.stderr.count("warning: step "), 1, result.stderr)
+            self.assertIn("more than 0.1 of fluid.sound_speed = 50 m/s", result.stderr)
+            details = json.loads((self.directory / str(ranks) / "run.json").read_text())["details"]
+            found.append(details["largest_mach_number"])
+            self.assertIn(f"largest Mach number       {found[-1]:.4f} at ", result.stdout)
+        self.assertEqual(found[0], found[1])
+        self.assertGreater(found[0], 0.1)
+        # No row of the history, and no snapshot, need be at the fastest instant.
+        fastest = max(np.hypot(*snapshot["velocity"][snapshot.fluid].T).max() for snapshot in Run(self.directory / "1").snapshots)
+        self.assertGreater(found[0], 0.9 * fastest / 50)
+        self.assertLess(found[0], 1.5 * fastest / 50)
+        slow = run(self.case, "--output", self.directory / "slow", "--set", "fluid.sound_speed=150")
+        self.assertNotIn("warning: step", slow.stderr)
+
+    def test_goes_through_a_restart(self) -> None:
+        whole, parts = self.directory / "whole", self.directory / "parts"
+        run(self.case, "--output", whole)
+        run(self.case, "--output", parts, "--until", "7.5e-6")
+        again = run(self.case, "--output", parts, "--restart", "latest")
+        self.assertNotIn("warning: step", again.stderr, "it has been said")
+        details = [json.loads((folder / "run.json").read_text())["details"] for folder in (whole, parts)]
+        self.assertEqual(details[0]["largest_mach_number"], details[1]["largest_mach_number"])
+
+
 class Checking(ProgramTest):
     def test_check_reports_and_writes_nothing(self) -> None:
         before = sorted(self.directory.iterdir())
@@ -106,6 +138,16 @@ class Checking(ProgramTest):
         for part in ("particles", "time step", "steps", "memory", "expected wall time", "partition", "Weber number"):
             self.assertIn(part, result.stdout)
         self.assertEqual(before, sorted(self.directory.iterdir()))
+
+    def test_check_says_what_the_case_is(self) -> None:
+        result = run("--check", self.case, "--set", "drop.velocity=[0, -1]", "--set", "gravity.acceleration=[0, -9.81]")
+        for part in ("Weber number        8.333", "Reynolds number", "Bond number         0.04905", "spacings across     9.6 in the drop: coarse",
+                     "sound speed         50 times the drop's\n", "on a rigid wall     D_max about 2.15 D0, 1.29 mm; its film has 3.5 spacings: it may",
+                     "contact time        about 1.91 ms there", "rows across         4 in the beam; the paper's runs have 10",
+                     "beam's first period 0.1725 ms in theory (Eqs 43, 44), 0.0902 of that contact time"):
+            self.assertIn(part, result.stdout)
+        self.assertIn("no estimate: it has been fitted for Weber numbers of 3 to 60", run("--check", self.case).stdout)
+        self.assertIn("less than the 50 times it", run("--check", self.case).stdout)
 
     def test_questions_are_answered_once(self) -> None:
         for option, part in (("--help", "--check"), ("--version", ", commit "), ("--list-parameters", "drop.diameter")):
@@ -153,7 +195,7 @@ class Mistakes(ProgramTest):
 
     def test_a_state_that_is_not_sound(self) -> None:
         result = run(self.case, "--output", self.directory / "out", "--set", "safety.speed_limit=2", ranks=3)
-        self.expect_refusal(result, UNSAFE, "safety.speed_limit is 2", "Last good snapshot: ", "snapshot_000000.vtkhdf")
+        self.expect_refusal(result, UNSAFE, "safety.speed_limit, now 2 m/s", "Last good snapshot: ", "snapshot_000000.vtkhdf")
         self.assertIn("stopped", (self.directory / "out" / "run.json").read_text())
 
 

@@ -21,6 +21,8 @@ from wrong_inputs import GOOD, SECTIONS, Wrong
 PAGE = Path(__file__).resolve().parent / "README.md"
 BEGIN, END = "<!-- messages: written by wrong_messages.py -->", "<!-- end of messages -->"
 CASE = "impact.cfg"
+# Of a checkpoint, which names the commit that wrote it.
+PASSING = re.compile(r"\b[0-9a-f]{32}\b|\b\d+(?= of \d+ bytes)|(?<= of )\d+(?= bytes)")
 
 
 def program(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -59,7 +61,7 @@ class Folder:
         elif wrong.prepare == "busy":
             (here / "busy").mkdir()
             lock = open(here / "busy/run.lock", "w", encoding="utf-8")
-            fcntl.lockf(lock, fcntl.LOCK_EX)
+            fcntl.flock(lock, fcntl.LOCK_EX)
         elif wrong.prepare:
             shutil.copytree(self.template / "unfinished", here / "unfinished")
             (checkpoint,) = (here / "unfinished").glob("checkpoint_*.h5")
@@ -81,19 +83,19 @@ class Folder:
         with self.prepared(wrong) as here:
             words = (CASE, *wrong.words) if wrong.line is None else wrong.line
             done = program(*words, "--quiet", folder=here)
-        return done.returncode, done.stderr.strip().removeprefix("sphdrop: ")
+        return done.returncode, PASSING.sub("...", done.stderr.strip().removeprefix("sphdrop: "))
 
 
 def shown_input(wrong: Wrong) -> str:
     if wrong.edit is not None:
-        return f"`{wrong.edit[1].strip()}`".replace("\n", "`, `")
+        return f"`{wrong.edit[1].removeprefix(wrong.edit[0]).strip()}`".replace("\n", "`, `")
     if wrong.line is not None or wrong.words:
         return "`" + " ".join(f"'{word}'" if " " in word or not word else word for word in wrong.words or wrong.line or ()) + "`"
     return ""
 
 
 def escaped(text: str) -> str:
-    return "<br>".join(f"`{line.strip()}`" for line in text.replace("|", "\\|").splitlines())
+    return "<br>".join(f"`{line.strip()}`" for line in text.replace("|", "\\|").replace("`", "'").splitlines())
 
 
 def row(wrong: Wrong, said: str) -> str:
