@@ -132,6 +132,30 @@ def close_pairs(position: Array, radius: float) -> tuple[NDArray[np.int64], NDAr
     return i[near], j[near], distance[near]
 
 
+def covered_area(snapshot: Snapshot, cell: float) -> float:
+    """The area in m^2 that the liquid's particles cover: squares of side `cell` (m) with a particle in them, and those between
+    that are no farther than three squares from such on all sides."""
+    position = snapshot["position"][snapshot.fluid]
+    place = np.floor((position - position.min(axis=0)) / cell).astype(int) + 5
+    covered = np.zeros(place.max(axis=0) + 6, dtype=bool)
+    covered[place[:, 0], place[:, 1]] = True
+    for _ in range(3):
+        covered = _grown(covered)
+    for _ in range(3):
+        covered = ~_grown(~covered)
+    return float(covered.sum()) * cell**2
+
+
+def _grown(squares: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """With the four neighbours of each."""
+    grown = squares.copy()
+    grown[1:] |= squares[:-1]
+    grown[:-1] |= squares[1:]
+    grown[:, 1:] |= squares[:, :-1]
+    grown[:, :-1] |= squares[:, 1:]
+    return grown
+
+
 def component_count(size: int, i: NDArray[np.int64], j: NDArray[np.int64]) -> int:
     """Connected components of `size` nodes with the links i-j: each takes the least label that reaches it."""
     label = np.arange(size)

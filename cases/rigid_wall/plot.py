@@ -55,6 +55,12 @@ def spread(run: Run) -> float:
     return quantities.largest_width(run)[1] / parameter(run, "drop", "diameter")
 
 
+def swelling(run: Run) -> float:
+    """By what share of its area the drop has grown at the end."""
+    cell = parameter(run, "resolution", "spacing")
+    return quantities.covered_area(run.snapshots[-1], cell) / quantities.covered_area(run.snapshots[0], cell) - 1
+
+
 QUANTITIES = {"contact_time": quantities.contact_time, "impulse_time": quantities.impulse_time, "spread": spread}
 
 
@@ -77,6 +83,7 @@ def measure(results: Results) -> dict[str, float]:
         if "U" in name:
             found[f"impulse_time_{name}"] = quantities.impulse_time(run)
             found[f"restitution_{name}"] = quantities.restitution(run)
+            found[f"swelling_{name}"] = swelling(run)
     if "U0.8" in results:
         found["widest_at_U0.8"] = quantities.largest_width(results["U0.8"])[0]
     for name, run in results.items():

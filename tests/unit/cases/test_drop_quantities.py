@@ -164,5 +164,21 @@ class Swings(unittest.TestCase):
         self.assertTrue(math.isnan(quantities.decay_rate(self.times, self.times + 1.0)))
 
 
+class Area(unittest.TestCase):
+    def test_a_disc_of_particles_covers_its_area_and_grows_with_it(self) -> None:
+        x, y = np.meshgrid(np.arange(-25, 26), np.arange(-25, 26))
+        inside = x**2 + y**2 < 20.5**2
+        disc = np.stack([x[inside], y[inside]], axis=-1) * 1e-5 + 0.5e-5
+
+        def snapshot(stretch: float) -> object:
+            class Liquid(dict):  # type: ignore[type-arg]
+                fluid = np.ones(len(disc), dtype=bool)
+            return Liquid(position=disc * stretch)
+        start = quantities.covered_area(snapshot(1.0), 1e-5)  # type: ignore[arg-type]
+        self.assertAlmostEqual(start, len(disc) * 1e-10, delta=0.05 * len(disc) * 1e-10)
+        for stretch in (1.1, 1.5, 2.0):
+            self.assertAlmostEqual(quantities.covered_area(snapshot(stretch), 1e-5) / start, stretch**2, delta=0.06 * stretch**2)  # type: ignore[arg-type]
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -95,8 +95,9 @@ class RigidWall(unittest.TestCase):
         # "U0.8" asks for snapshots as well; here it has one particle.
         lone = {"position": np.zeros((2, 2)) + [[0, 0], [1, 0]], "mass": np.ones(2), "density": np.ones(2)}
         snapshot = type("Snapshot", (dict,), {"fluid": np.ones(2, dtype=bool)})(lone)
-        base.snapshots = SimpleNamespace(at=lambda time: snapshot)
+        base.snapshots = type("Snapshots", (list,), {"at": lambda self, time: self[0]})([snapshot, snapshot])
         found = self.wall.measure({**runs, "U0.8": base})
+        self.assertEqual(found["swelling_U0.8"], 0.0)
         self.assertAlmostEqual(found["contact_time_order_spacing"], 1.0, delta=0.02)
         self.assertAlmostEqual(found["contact_time_limit_spacing"], 4e-3, delta=5e-6)
         self.assertAlmostEqual(found["spread_order_spacing"], 2.0, delta=0.01)
