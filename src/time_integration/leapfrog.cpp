@@ -53,6 +53,31 @@ class SquaredMaximum {
   double tail_ = 0.0, tail_poison_ = 0.0;
 };
 
+// The rectangle about vectors, in the same way.
+class BoxMaximum {
+ public:
+  void add(const Pack& x, const Pack& y) {
+    low_x_ = min(low_x_, x);
+    high_x_ = max(high_x_, x);
+    low_y_ = min(low_y_, y);
+    high_y_ = max(high_y_, y);
+  }
+  void add(double x, double y) {
+    tail_.low_x = std::min(tail_.low_x, x);
+    tail_.high_x = std::max(tail_.high_x, x);
+    tail_.low_y = std::min(tail_.low_y, y);
+    tail_.high_y = std::max(tail_.high_y, y);
+  }
+  DisplacementBox value() const {
+    return {std::min(hmin(low_x_), tail_.low_x), std::max(hmax(high_x_), tail_.high_x),
+            std::min(hmin(low_y_), tail_.low_y), std::max(hmax(high_y_), tail_.high_y)};
+  }
+
+ private:
+  DisplacementBox tail_;
+  Pack low_x_{tail_.low_x}, high_x_{tail_.high_x}, low_y_{tail_.low_y}, high_y_{tail_.high_y};
+};
+
 /// |a|, or |a - b|, over the rows.
 void add_rows(std::span<const RowRange> rows, const VectorField& a, SquaredMaximum& maximum) {
   for (const RowRange& range : rows) {
@@ -70,9 +95,28 @@ void add_rows(std::span<const RowRange> rows, const VectorField& a, const Vector
   }
 }
 
+// a - b over the rows, and the box about it.
+void add_rows(std::span<const RowRange> rows, const VectorField& a, const VectorField& b, SquaredMaximum& maximum,
+              BoxMaximum& box) {
+  const auto add = [&](const auto& x, const auto& y) {
+    maximum.add(x, y);
+    box.add(x, y);
+  };
+  for (const RowRange& range : rows) {
+    std::int64_t row = range.begin;
+    for (; row + pack_size <= range.end; row += pack_size)
+      add(load(a.x.data() + row) - load(b.x.data() + row), load(a.y.data() + row) - load(b.y.data() + row));
+    for (; row < range.end; ++row) add(a.x.data()[row] - b.x.data()[row], a.y.data()[row] - b.y.data()[row]);
+  }
+}
+
 MotionMaxima finish(const SquaredMaximum& speed, const SquaredMaximum& moved, const SquaredMaximum& detected,
                     double speed_limit) {
-  return {speed.value(), moved.value(), detected.value(),
+  return {speed.value(),
+          moved.value(),
+          detected.value(),
+          {},
+          {},
           !speed.is_sound() || !moved.is_sound() || !(speed.value() <= speed_limit * speed_limit)};
 }
 
@@ -103,10 +147,14 @@ void predict_velocity(SolidParticles& s, double previous_step) {
 
 MotionMaxima motion_maxima(const FluidParticles& f, double speed_limit) {
   SquaredMaximum speed, moved, detected;
+  BoxMaximum box, detection_box;
   add_rows(f.owned, f.staggered_velocity, speed);
-  add_rows(f.owned, f.position, f.list_position, moved);
-  add_rows(f.owned, f.position, f.detection_position, detected);
-  return finish(speed, moved, detected, speed_limit);
+  add_rows(f.owned, f.position, f.list_position, moved, box);
+  add_rows(f.owned, f.position, f.detection_position, detected, detection_box);
+  MotionMaxima maxima = finish(speed, moved, detected, speed_limit);
+  maxima.displacements = box.value();
+  maxima.detection_displacements = detection_box.value();
+  return maxima;
 }
 
 MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_limit) {
