@@ -235,7 +235,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   if (communicator_.sum(again.hash()) != checkpoint.header.state_hash)
     throw CheckpointError(fmt::format("{}: the state read is not the one that was written", checkpoint.path.string()));
 
-  const MotionMaxima motion = motion_maxima(fluid_, infinity);
+  const MotionMaxima motion = motion_maxima(fluid_, infinity, boxes_wanted());
   maxima_.finish();
   settled_ = {};
   post_maxima({motion.squared_speed, 0, motion.squared_detection_displacement, {}, motion.detection_displacements},
@@ -331,15 +331,15 @@ void Simulation::move(double request) {
   const double limit = case_.safety.speed_limit;
   const bool was_relaxing = is_relaxing();
   shifting_.apply(fluid_);
-  MotionMaxima fluid =
-      rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit) : kick_and_drift(fluid_, steps_, limit);
+  MotionMaxima fluid = rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit)
+                                                : kick_and_drift(fluid_, steps_, limit, boxes_wanted());
   const MotionMaxima solid = has_substeps() ? move_solid_in_substeps(limit) : solid_step_->move(solid_, steps_, limit);
   time_ += steps_.next;
   ++step_;
   steps_.previous = steps_.next;
   if (was_relaxing && !is_relaxing()) {
     start_drop();
-    fluid = motion_maxima(fluid_, limit);
+    fluid = motion_maxima(fluid_, limit, boxes_wanted());
   }
   post_maxima(fluid, solid, request);
   timer_.lap(Phase::update);
@@ -365,49 +365,6 @@ void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& soli
   put_box(std::span(mine).subspan(detection_displacements, 4), fluid.detection_displacements);
   mine[energy_of_shift] = std::exchange(energy_of_shift_, -infinity);  // a number on one rank
   maxima_.start(mine);
-}
-
-void Simulation::redistribute_if_due(double largest_squared_displacement, double solid_squared_displacement,
-                                     const DisplacementBox& displacements_now) {
-  const double allowed = parameters_.range.largest_displacement(), skin = parameters_.range.skin;
-  const std::int64_t interval = case_.parallel.repartition_interval;
-  const bool forced = interval > 0 && step_ % interval == 0;
-  // What a drop moves as a whole brings no neighbours together. Where solid and liquid share one measure, and to the
-  // solid, it does matter.
-  const bool lists_hold = largest_squared_displacement <= allowed * allowed ||
-                          (solid_step_->is_total_lagrangian() && displacements_now.squared_diagonal() <= skin * skin);
-  if (is_distributed_ && !forced && lists_hold) {
-    // Such a solid stays with its ranks, but the drop may come upon another part of it.
-    const bool solid_has_moved = solid_squared_displacement > allowed * allowed;
-    const bool drop_has_moved = largest_squared_displacement > allowed * allowed &&
-                                displacements_now.squared_motion_since(contact_displacements_) > allowed * allowed;
-    if ((solid_has_moved || drop_has_moved) && fluid_total_ > 0) {
-      check_nothing_is_lost();
-      regather_contact();
-      solid_.list_position.take(solid_.position);
-      contact_displacements_ = displacements_now;
-      timer_.lap(Phase::redistribution);
-    }
-    return;
-  }
-  const bool solid_has_changed = distribution_.redistribute(fluid_, solid_, forced);
-  check_nothing_is_lost();
-  corrected_density_.resize(fluid_.size() + column_padding);
-  fluid_sweep_.resize(fluid_);
-  if (solid_has_changed) solid_step_->relist(solid_, distribution_);
-  contact_displacements_ = {0.0, 0.0, 0.0, 0.0};
-  contact_.regather(fluid_, solid_, parameters_.range);
-  if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_, contact_);
-  if (surface_tension_.is_enabled() && !is_distributed_) surface_tension_.recover(fluid_, distribution_, contact_);
-  is_distributed_ = true;
-  ++redistributions_;
-  timer_.lap(Phase::redistribution);
-}
-
-void Simulation::regather_contact() {
-  contact_.regather(fluid_, solid_, parameters_.range);
-  // Who attracts the drop is numbered anew, and perhaps has another owner.
-  if (surface_tension_.is_enabled() && case_.is_wetting()) surface_tension_.regather(fluid_, contact_);
 }
 
 double Simulation::next_step_length(double squared_speed_now) const {

@@ -113,6 +113,7 @@ class Simulation {
   void check_nothing_is_lost();
   void redistribute_if_due(double squared_displacement, double squared_solid_displacement,
                            const DisplacementBox& displacements);
+  BoxesWanted boxes_wanted() const;
   void regather_contact();
   /// Velocity, density and pressure at the present instant, ready for the sweep.
   void predict_liquid();
@@ -168,6 +169,7 @@ class Simulation {
   double energy_of_shift_;  // at the surface's owner, J/m; minus infinity elsewhere and where nothing is shifted
   std::optional<SolidStep::Inversion> inversion_;  // the first on this rank
   DisplacementBox contact_displacements_;          // of the liquid, when contact was last gathered anew
+  bool lists_may_outlive_motion_ = false;          // if the drop moves as a whole
   bool is_distributed_ = false;
   bool detection_is_due_ = true;
   std::int64_t redistributions_ = 0, detections_ = 0;

@@ -43,6 +43,8 @@ class SurfaceTensionStep {
   SurfaceTensionStep(const Communicator& communicator, const Case& input, const SmoothingKernel& kernel);
 
   bool is_enabled() const { return form_ != SurfaceTensionForm::none; }
+  /// Whether only motion against the drop as a whole counts.
+  bool displacement_is_relative() const { return displacement_is_relative_; }
   /// Whether detect() is due: some particle has moved so far since the last one, by its largest squared displacement
   /// from there, m2, or, where motion counts as relative, from the middle of all displacements.
   bool detection_is_due(double squared_displacement, const DisplacementBox& displacements) const;

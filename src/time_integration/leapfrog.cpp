@@ -95,19 +95,16 @@ void add_rows(std::span<const RowRange> rows, const VectorField& a, const Vector
   }
 }
 
-// a - b over the rows, and the box about it.
-void add_rows(std::span<const RowRange> rows, const VectorField& a, const VectorField& b, SquaredMaximum& maximum,
-              BoxMaximum& box) {
-  const auto add = [&](const auto& x, const auto& y) {
-    maximum.add(x, y);
-    box.add(x, y);
-  };
+/// The box about a - b over the rows.
+DisplacementBox box_about(std::span<const RowRange> rows, const VectorField& a, const VectorField& b) {
+  BoxMaximum box;
   for (const RowRange& range : rows) {
     std::int64_t row = range.begin;
     for (; row + pack_size <= range.end; row += pack_size)
-      add(load(a.x.data() + row) - load(b.x.data() + row), load(a.y.data() + row) - load(b.y.data() + row));
-    for (; row < range.end; ++row) add(a.x.data()[row] - b.x.data()[row], a.y.data()[row] - b.y.data()[row]);
+      box.add(load(a.x.data() + row) - load(b.x.data() + row), load(a.y.data() + row) - load(b.y.data() + row));
+    for (; row < range.end; ++row) box.add(a.x.data()[row] - b.x.data()[row], a.y.data()[row] - b.y.data()[row]);
   }
+  return box.value();
 }
 
 MotionMaxima finish(const SquaredMaximum& speed, const SquaredMaximum& moved, const SquaredMaximum& detected,
@@ -145,19 +142,19 @@ void predict_velocity(SolidParticles& s, double previous_step) {
   advance_column(s.owned, half, s.acceleration.y, s.staggered_velocity.y, s.velocity.y);
 }
 
-MotionMaxima motion_maxima(const FluidParticles& f, double speed_limit) {
+MotionMaxima motion_maxima(const FluidParticles& f, double speed_limit, BoxesWanted boxes) {
   SquaredMaximum speed, moved, detected;
-  BoxMaximum box, detection_box;
   add_rows(f.owned, f.staggered_velocity, speed);
-  add_rows(f.owned, f.position, f.list_position, moved, box);
-  add_rows(f.owned, f.position, f.detection_position, detected, detection_box);
+  add_rows(f.owned, f.position, f.list_position, moved);
+  add_rows(f.owned, f.position, f.detection_position, detected);
   MotionMaxima maxima = finish(speed, moved, detected, speed_limit);
-  maxima.displacements = box.value();
-  maxima.detection_displacements = detection_box.value();
+  if (boxes.displacements) maxima.displacements = box_about(f.owned, f.position, f.list_position);
+  if (boxes.detection_displacements)
+    maxima.detection_displacements = box_about(f.owned, f.position, f.detection_position);
   return maxima;
 }
 
-MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_limit) {
+MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_limit, BoxesWanted boxes) {
   advance_column(f.owned, steps.kick(), f.acceleration.x, f.staggered_velocity.x, f.staggered_velocity.x);
   advance_column(f.owned, steps.kick(), f.acceleration.y, f.staggered_velocity.y, f.staggered_velocity.y);
   advance_column(f.owned, steps.kick(), f.density_rate.columns[0], f.staggered_density.columns[0],
@@ -165,7 +162,7 @@ MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_l
   advance_column(f.owned, steps.next, f.staggered_velocity.x, f.position.x, f.position.x);
   advance_column(f.owned, steps.next, f.staggered_velocity.y, f.position.y, f.position.y);
   accumulate_energy(f.owned, steps.next, f.mass, f.dissipation_rate, f.dissipated_energy);
-  return motion_maxima(f, speed_limit);
+  return motion_maxima(f, speed_limit, boxes);
 }
 
 MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_limit) {

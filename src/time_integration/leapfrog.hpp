@@ -52,8 +52,13 @@ struct MotionMaxima {
   bool beyond_limit = false;
 };
 
+/// Which boxes to look for; the others stay empty.
+struct BoxesWanted {
+  bool displacements = false, detection_displacements = false;
+};
+
 /// Of the staggered velocity and the position as they stand. `speed_limit` in m/s.
-MotionMaxima motion_maxima(const FluidParticles& fluid, double speed_limit);
+MotionMaxima motion_maxima(const FluidParticles& fluid, double speed_limit, BoxesWanted boxes = {});
 
 /// Velocity and density (and deviatoric stress) of the owned rows at t from the staggered ones.
 void predict(FluidParticles& fluid, double previous_step);
@@ -64,7 +69,7 @@ void predict_velocity(SolidParticles& solid, double previous_step);
 
 /// Velocity, density (and deviatoric stress) from t - previous/2 to t + next/2, position from t to t + next (36-39);
 /// held particles (is_fixed 1) stay. `speed_limit` in m/s.
-MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit);
+MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit, BoxesWanted boxes = {});
 MotionMaxima kick_and_drift(SolidParticles& solid, StepLengths steps, double speed_limit);
 
 /// The same for a solid whose stress follows from its position: velocity and position, and if `is_heated` the
