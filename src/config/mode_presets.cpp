@@ -43,6 +43,7 @@ constexpr Preset presets[] = {
     {Mode::fast, "time.solid_substeps", "0", "", has_beam},
     // What counts is the time between corrections, and steps are long.
     {Mode::fast, "fluid.density_correction_interval", "10", "", has_liquid},
+    {Mode::fast, "surface_tension.detection_displacement", "0.06", "", has_liquid},
     {Mode::fast, "surface_tension.detection_motion", "\"relative\"", "", has_liquid},
 };
 

@@ -167,9 +167,9 @@ class Simulation {
   std::span<const double> settled_;  // what move() left under way, once it is known; empty before
   double request_ = 0;
   double energy_of_shift_;  // at the surface's owner, J/m; minus infinity elsewhere and where nothing is shifted
-  std::optional<SolidStep::Inversion> inversion_;  // the first on this rank
-  DisplacementBox contact_displacements_;          // of the liquid, when contact was last gathered anew
-  bool lists_may_outlive_motion_ = false;          // if the drop moves as a whole
+  std::optional<SolidStep::Inversion> inversion_;         // the first on this rank
+  std::optional<DisplacementBox> contact_displacements_;  // of the liquid, if contact was gathered anew since the lists
+  bool wants_displacements_ = false;                      // the drop may move as a whole
   bool is_distributed_ = false;
   bool detection_is_due_ = true;
   std::int64_t redistributions_ = 0, detections_ = 0;
