@@ -270,6 +270,7 @@ int DomainPartition::owner_of(double x, double y) const {
 }
 
 void DomainPartition::other_ranks_within(double x, double y, double reach, std::vector<int>& ranks) const {
+  if (communicator_->size() == 1) return;
   neighbour_ranks_.append(table_, x / cell_size_, y / cell_size_, reach / cell_size_, ranks);
 }
 

@@ -23,7 +23,7 @@ packages=(
   libmetis-dev libxxhash-dev libeigen3-dev libtoml11-dev libcli11-dev libfmt-dev
   python3 python3-numpy python3-h5py python3-matplotlib
 )
-packages_of_tests=(git libgtest-dev libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy python3-vtk9 iproute2)
+packages_of_tests=(git libgtest-dev libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy python3-vtk9 iproute2 valgrind)
 # The tests start a Slurm of their own. Where there is one already, perhaps of another origin, nothing is added to it.
 if ! command -v sbatch >/dev/null; then
   packages_of_tests+=(slurmctld slurmd slurm-client munge)

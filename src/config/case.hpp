@@ -8,7 +8,7 @@
 
 namespace sphdrop {
 
-enum class Mode { paper, modern };
+enum class Mode { paper, modern, fast };
 enum class DropShape { none, round, square, ellipse };
 enum class DropArrangement { rings, lattice };
 enum class DropPlacement { above_solid, centre };
@@ -23,6 +23,7 @@ enum class SurfaceTensionForm { none, conservative, curvature };
 enum class KernelShape { cubic_spline, wendland_c2 };
 enum class ViscosityForm { artificial, physical };
 enum class DensityTreatment { none, moving_least_squares, density_diffusion };
+enum class DetectionMotion { absolute, relative };
 enum class Switch { off, on };
 
 /// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
@@ -41,11 +42,13 @@ struct Case {
   } resolution;
 
   struct Time {
-    double end = 0;            ///< s
-    double step = 0;           ///< s; 0: Eqs 40-42
-    double sound_cfl = 0;      ///< Eq 40's factor
-    double capillary_cfl = 0;  ///< Eq 41's factor
-    double viscous_cfl = 0;    ///< Eq 42's factor
+    double end = 0;                   ///< s
+    double step = 0;                  ///< s; 0: Eqs 40-42
+    double sound_cfl = 0;             ///< Eq 40's factor
+    double liquid_sound_cfl = 0;      ///< Eq 40's factor for the liquid where the solid takes sub-steps
+    std::int64_t solid_substeps = 0;  ///< steps of the solid in one step of the liquid
+    double capillary_cfl = 0;         ///< Eq 41's factor
+    double viscous_cfl = 0;           ///< Eq 42's factor
     bool operator==(const Time&) const = default;
   } time;
 
@@ -132,6 +135,7 @@ struct Case {
     std::int64_t polynomial_points = 0;  ///< 3 or 5, Eq 28
     double detection_displacement =
         0;  ///< in units of d: the curve's connectivity is kept until a particle has moved so far
+    DetectionMotion detection_motion = DetectionMotion::absolute;
     bool operator==(const SurfaceTension&) const = default;
   } surface_tension;
 

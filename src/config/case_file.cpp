@@ -224,10 +224,9 @@ void CaseReader::find_contradictions() {
 }
 
 void CaseReader::apply_presets() {
-  if (values_.mode != Mode::modern) return;
   const Case plain = values_;
-  for (const Preset& preset : modern_presets()) {
-    if (given_.contains(preset.key) || !preset.applies(plain)) continue;
+  for (const Preset& preset : mode_presets()) {
+    if (values_.mode < preset.mode || given_.contains(preset.key) || !preset.applies(plain)) continue;
     const TomlNode value = parse_toml("value = " + std::string(preset.value), "mode").members.front();
     [[maybe_unused]] const auto mistake = store(*find_parameter(preset.key), value, values_);
     assert(!mistake);

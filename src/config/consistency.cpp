@@ -238,6 +238,15 @@ Verdict step_too_large(const Case& values) {
       values.time.step, bound.step, bound.equation);
 }
 
+Verdict substeps_of_another_solid(const Case& values) {
+  if (values.time.solid_substeps <= 1 || can_take_substeps(values)) return {};
+  return fmt::format(
+      "time.solid_substeps = {} needs a beam of solid.formulation = \"cells\" or \"total_lagrangian\" and a liquid "
+      "drop; "
+      "set it to 1",
+      values.time.solid_substeps);
+}
+
 Verdict contact_angle_without_surface(const Case& values) {
   if (!values.is_wetting()) return {};
   const char* lacks = !values.drop.is_liquid()                                  ? "there is no liquid drop"
@@ -268,9 +277,7 @@ Verdict contact_springs_within_a_step(const Case& values) {
   double inverse_mass = 1 / (values.drop.density * d * d);
   if (has_beam(values)) inverse_mass += 1 / (values.solid.density * d * d);
   const double rate = values.contact_modulus() * inverse_mass;
-  const double acoustic =
-      values.resolution.smoothing_ratio * d / (largest_sound_speed(values) + expected_speed(values));
-  const double step = values.time.step > 0 ? values.time.step : values.time.sound_cfl * acoustic;
+  const double step = values.time.step > 0 ? values.time.step : sound_step(values);
   if (values.contact.stiffness * rate * step * step <= 1) return {};
   return fmt::format(
       "contact.stiffness = {} makes springs too stiff for a time step of {:.4g} s; take at most {:.4g}, or a smaller "
@@ -354,6 +361,8 @@ const std::vector<Check>& contradiction_checks() {
         "gravity.acceleration",
         "time.end"},
        step_too_large},
+      {{"time.solid_substeps", "solid.kind", "solid.formulation", "drop.shape", "drop.material"},
+       substeps_of_another_solid},
       {{"surface_tension.contact_angle", "surface_tension.form", "surface_tension.coefficient", "drop.shape",
         "drop.material", "solid.kind"},
        contact_angle_without_surface},

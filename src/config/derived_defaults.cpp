@@ -60,9 +60,29 @@ double default_domain_margin(const Case& all) {
   });
 }
 
+// Eq 40 of sound and the speed expected with these factors.
+double sound_step(const Case& values, double factor, double liquid_factor) {
+  const double h = values.resolution.smoothing_ratio * values.resolution.spacing, u = expected_speed(values);
+  if (values.time.solid_substeps <= 1) return factor * h / (largest_sound_speed(values) + u);
+  return std::min(static_cast<double>(values.time.solid_substeps) * factor * h / (beam_sound_speed(values) + u),
+                  liquid_factor * h / (values.fluid.sound_speed + u));
+}
+
+constexpr double cfl_of_substeps = 0.5;
+
+// As many as bring the solid's step nearest to the liquid's, as long as contact does not ring (ringing_substeps).
+std::int64_t default_substeps(const Case& values) {
+  constexpr double most = 3;
+  if (!can_take_substeps(values)) return 1;
+  const double factor = std::isnan(values.time.sound_cfl) ? cfl_of_substeps : values.time.sound_cfl;
+  const double ratio = values.time.liquid_sound_cfl / values.fluid.sound_speed * beam_sound_speed(values) / factor;
+  return static_cast<std::int64_t>(std::clamp(std::round(ratio), 1.0, most));
+}
+
 // The largest that stay stable, with something to spare: cells stand 0.5 by their own c_s, water 0.2 by its c_f.
 double default_sound_cfl(const Case& values) {
   if (values.mode == Mode::paper) return 0.1;
+  if (values.time.solid_substeps > 1) return cfl_of_substeps;
   constexpr double of_solid = 0.4, of_liquid = 0.2;
   if (!values.drop.is_liquid()) return of_solid;
   return std::min(of_solid, of_liquid * largest_sound_speed(values) / values.fluid.sound_speed);
@@ -112,12 +132,22 @@ double largest_sound_speed(const Case& values) {
   return std::max(liquid, beam_sound_speed(values));
 }
 
+double sound_step(const Case& values) {
+  return sound_step(values, values.time.sound_cfl, values.time.liquid_sound_cfl);
+}
+
+bool can_take_substeps(const Case& values) {
+  return has_beam(values) && values.drop.is_liquid() &&
+         (values.solid.formulation == SolidFormulation::cells ||
+          values.solid.formulation == SolidFormulation::total_lagrangian);
+}
+
 StepBound largest_step(const Case& values) {
   const double h = values.resolution.smoothing_ratio * values.resolution.spacing;
   const double rho = values.fluid.density;
   const double sigma = values.surface_tension.coefficient;
   const double mu = values.fluid.viscosity;
-  StepBound bound{h / (largest_sound_speed(values) + expected_speed(values)), "Eq 40 (sound)"};
+  StepBound bound{sound_step(values, 1.0, 1.0), "Eq 40 (sound)"};
   if (values.drop.is_liquid() && values.surface_tension.form != SurfaceTensionForm::none && sigma > 0) {
     const double capillary = std::sqrt(rho * h * h * h / (2 * std::numbers::pi * sigma));  // Eq 41
     if (capillary < bound.step) bound = {capillary, "Eq 41 (capillary waves)"};
@@ -134,10 +164,11 @@ void fill_derived_defaults(Case& values, const std::string& source_name) {
   if (values.output.directory.empty()) values.output.directory = "results/" + values.name;
 
   if (values.solid.formulation == SolidFormulation::automatic)
-    values.solid.formulation = values.mode == Mode::modern ? SolidFormulation::cells : SolidFormulation::hypoelastic;
+    values.solid.formulation = values.mode == Mode::paper ? SolidFormulation::hypoelastic : SolidFormulation::cells;
 
   const double d = values.resolution.spacing;
   fill(values.time.step, 0);
+  if (values.time.solid_substeps == 0) values.time.solid_substeps = default_substeps(values);
   fill(values.time.sound_cfl, default_sound_cfl(values));
   const bool springs_are_fixed = values.contact.stiffness_form == ContactStiffness::fixed;
   fill(values.contact.stiffness, springs_are_fixed ? 0.3 : 0.1);

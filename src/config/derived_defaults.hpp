@@ -21,6 +21,10 @@ double expected_speed(const Case& values);
 /// step.
 double largest_sound_speed(const Case& values);
 
+/// The step that Eq 40 gives with the case's CFL factors, s, at the speed expected: of solid and liquid together, or,
+/// where the solid takes sub-steps, the smaller of the liquid's step and so many of the solid's.
+double sound_step(const Case& values);
+
 struct StepBound {
   double step = 0;  ///< s; infinity if nothing bounds it
   const char* equation = "";
@@ -28,6 +32,9 @@ struct StepBound {
 
 /// The smallest of Eqs 40-42 with all CFL factors 1, for the materials and forces that the case has.
 StepBound largest_step(const Case& values);
+
+/// Whether the solid can take sub-steps: a beam whose neighbours follow from its undeformed body, and a liquid.
+bool can_take_substeps(const Case& values);
 
 bool has_drop(const Case& values);
 bool has_beam(const Case& values);

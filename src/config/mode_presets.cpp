@@ -1,7 +1,5 @@
 #include "config/mode_presets.hpp"
 
-#include <algorithm>
-
 #include "config/derived_defaults.hpp"
 
 namespace sphdrop {
@@ -26,30 +24,33 @@ bool has_beam_of_cells(const Case& values) {
                               values.solid.formulation == SolidFormulation::cells);
 }
 
+bool has_liquid(const Case& values) {
+  return values.drop.is_liquid();
+}
+
 bool has_contact(const Case& values) {
   return has_drop(values) && values.solid.kind != SolidKind::none;
 }
 
 constexpr Preset presets[] = {
-    {"fluid.viscosity_form", "\"physical\"", "of one drop without a beam", has_one_drop_without_beam},
-    {"fluid.artificial_viscosity_alpha", "0.0", "of one drop without a beam", has_one_drop_without_beam},
-    {"fluid.gauge_pressure", "\"on\"", "of one drop without a beam", has_surface_alone},
-    {"fluid.shifting", "\"on\"", "of one drop without a beam", has_surface_alone},
-    {"solid.formulation", "\"cells\"", "", has_beam},
-    {"solid.clamp", "\"ideal\"", "", has_beam_of_cells},
-    {"contact.stiffness_form", "\"fixed\"", "", has_contact},
+    {Mode::modern, "fluid.viscosity_form", "\"physical\"", "of one drop without a beam", has_one_drop_without_beam},
+    {Mode::modern, "fluid.artificial_viscosity_alpha", "0.0", "of one drop without a beam", has_one_drop_without_beam},
+    {Mode::modern, "fluid.gauge_pressure", "\"on\"", "of one drop without a beam", has_surface_alone},
+    {Mode::modern, "fluid.shifting", "\"on\"", "of one drop without a beam", has_surface_alone},
+    {Mode::modern, "solid.formulation", "\"cells\"", "", has_beam},
+    {Mode::modern, "solid.clamp", "\"ideal\"", "", has_beam_of_cells},
+    {Mode::modern, "contact.stiffness_form", "\"fixed\"", "", has_contact},
+    {Mode::fast, "time.solid_substeps", "0", "", has_beam},
+    // What counts is the time between corrections, and steps are long.
+    {Mode::fast, "fluid.density_correction_interval", "10", "", has_liquid},
+    {Mode::fast, "surface_tension.detection_displacement", "0.06", "", has_liquid},
+    {Mode::fast, "surface_tension.detection_motion", "\"relative\"", "", has_liquid},
 };
 
 }  // namespace
 
-std::span<const Preset> modern_presets() {
+std::span<const Preset> mode_presets() {
   return presets;
-}
-
-const Preset* modern_preset(std::string_view key) {
-  const auto found =
-      std::find_if(std::begin(presets), std::end(presets), [&](const Preset& p) { return p.key == key; });
-  return found == std::end(presets) ? nullptr : &*found;
 }
 
 }  // namespace sphdrop

@@ -45,7 +45,7 @@ constexpr Range either_sign(double bound) {
 }
 
 // The words of each enumeration, in the order of its enumerators (config/case.hpp).
-constexpr std::string_view mode_words[] = {"paper", "modern"};
+constexpr std::string_view mode_words[] = {"paper", "modern", "fast"};
 constexpr std::string_view shape_words[] = {"none", "round", "square", "ellipse"};
 constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
 constexpr std::string_view placement_words[] = {"above_solid", "centre"};
@@ -60,6 +60,7 @@ constexpr std::string_view form_words[] = {"none", "conservative", "curvature"};
 constexpr std::string_view kernel_words[] = {"cubic_spline", "wendland_c2"};
 constexpr std::string_view viscosity_words[] = {"artificial", "physical"};
 constexpr std::string_view density_words[] = {"none", "moving_least_squares", "density_diffusion"};
+constexpr std::string_view motion_words[] = {"absolute", "relative"};
 constexpr std::string_view switch_words[] = {"off", "on"};
 
 constexpr std::int64_t stencil_choices[] = {3, 5};
@@ -71,6 +72,7 @@ constexpr double largest_speed = 1e5;    // m/s
 constexpr double largest_density = 1e6;  // kg/m3
 constexpr double largest_spin = 1e9;     // rad/s
 constexpr std::int64_t most_steps = 1000000000;
+constexpr std::int64_t most_substeps = 20;
 
 using C = Case;
 
@@ -82,8 +84,8 @@ constexpr Parameter table[] = {
      WordParameter{mode_words, [](const C& c) { return static_cast<std::size_t>(c.mode); },
                    [](C& c, std::size_t position) { c.mode = static_cast<Mode>(position); }, 0},
      "scheme that parameters left to themselves choose: paper = as printed, completed where the print is silent; "
-     "modern = "
-     "what works better"},
+     "modern = what works better; fast = modern with the longest steps that were measured to leave its results as they "
+     "are"},
 
     {"resolution.spacing", "d_ini", "m",
      real<&C::resolution, &C::Resolution::spacing>(Required{}, positive(largest_length)),
@@ -103,9 +105,17 @@ constexpr Parameter table[] = {
      "fixed time step; 0 = the smallest of Eqs 40-42"},
     {"time.sound_cfl", "", "-",
      real<&C::time, &C::Time::sound_cfl>(
-         Automatic{"0.1; mode modern: 0.4, less where the step would be more than 0.2 by the liquid's sound"},
+         Automatic{
+             "0.1; mode modern: 0.4, less where the step would be more than 0.2 by the liquid's sound; mode fast: "
+             "the same, and 0.5 of a solid that takes sub-steps"},
          positive(1)),
-     "factor of Eq 40 (sound)"},
+     "factor of Eq 40 (sound); of a solid that takes sub-steps, for those"},
+    {"time.liquid_sound_cfl", "", "-", real<&C::time, &C::Time::liquid_sound_cfl>(0.25, positive(1)),
+     "factor of Eq 40 for the liquid where solid_substeps is more than 1; elsewhere sound_cfl holds for both"},
+    {"time.solid_substeps", "", "-", integer<&C::time, &C::Time::solid_substeps>(1, 0, most_substeps),
+     "equal steps that the solid takes in one step of liquid, surface tension and contact, whose reaction it gets as "
+     "one impulse; more than 1 needs a liquid drop and a beam of cells or total_lagrangian; 0 = as many as the "
+     "liquid's sound allows, at most 3"},
     {"time.capillary_cfl", "", "-", real<&C::time, &C::Time::capillary_cfl>(0.1, positive(1)),
      "factor of Eq 41 (capillary waves)"},
     {"time.viscous_cfl", "", "-", real<&C::time, &C::Time::viscous_cfl>(0.1, positive(1)),
@@ -284,6 +294,10 @@ constexpr Parameter table[] = {
     {"surface_tension.polynomial_points", "", "-",
      integer<&C::surface_tension, &C::SurfaceTension::polynomial_points>(3, 3, 5, stencil_choices),
      "surface points of the local polynomial (Eq 28); used by the curvature form"},
+    {"surface_tension.detection_motion", "", "-",
+     word<&C::surface_tension, &C::SurfaceTension::detection_motion>(motion_words, DetectionMotion::absolute),
+     "what detection_displacement counts: absolute = a particle's whole motion; relative = its motion against the drop "
+     "as a whole, which leaves a drop in flight alone; with contact_angle < 180 the whole motion counts all the same"},
     {"surface_tension.detection_displacement", "", "d_ini",
      real<&C::surface_tension, &C::SurfaceTension::detection_displacement>(0.03, non_negative(0.5)),
      "the surface curve is detected anew once a particle has moved this far; 0 = every step"},

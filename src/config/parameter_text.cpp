@@ -88,11 +88,12 @@ std::string default_text(const Parameter& parameter) {
   if (automatic != nullptr) return fmt::format("{} ({})", quoted(automatic_word), automatic->meaning);
   Case values;
   store_default(parameter, values);
-  const Preset* modern = modern_preset(parameter.key);
-  return value_text(parameter, values) +
-         (modern == nullptr ? ""
-                            : fmt::format(" (mode modern: {}{})", modern->value,
-                                          modern->restriction.empty() ? "" : fmt::format(" {}", modern->restriction)));
+  std::string text = value_text(parameter, values);
+  for (const Preset& preset : mode_presets())
+    if (preset.key == parameter.key)
+      text += fmt::format(" (mode {}: {}{})", preset.mode == Mode::modern ? "modern" : "fast", preset.value,
+                          preset.restriction.empty() ? "" : fmt::format(" {}", preset.restriction));
+  return text;
 }
 
 std::string allowed_text(const Parameter& parameter) {

@@ -219,17 +219,29 @@ void ContactStep::work(double time, double step, double kick, const AdhesionSumm
   solid_gather_.start_scatter(std::array<const void*, 2>{force_x_.data(), force_y_.data()});
 }
 
-void ContactStep::finish(FluidParticles& fluid, SolidParticles& solid) {
+void ContactStep::finish(FluidParticles& fluid) {
   if (segments_.empty()) return;
   if (drop_is_rigid_)
     share_load();
   else
     accelerate_liquid(fluid);
   solid_gather_.finish_scatter(std::array<void*, 2>{returned_solid_x_.data(), returned_solid_y_.data()});
+}
+
+void ContactStep::accelerate_solid(SolidParticles& solid) const {
   for (const std::int32_t k : solid_rows_) {
     const auto row = static_cast<std::size_t>(k);
     solid.acceleration.x[row] += returned_solid_x_[row] / solid.mass[row];
     solid.acceleration.y[row] += returned_solid_y_[row] / solid.mass[row];
+  }
+}
+
+void ContactStep::kick_solid(SolidParticles& solid, double kick) const {
+  for (const std::int32_t k : solid_rows_) {
+    const auto row = static_cast<std::size_t>(k);
+    const double is_free = 1.0 - solid.is_fixed[row];
+    solid.staggered_velocity.x[row] += kick * (returned_solid_x_[row] / solid.mass[row] * is_free);
+    solid.staggered_velocity.y[row] += kick * (returned_solid_y_[row] / solid.mass[row] * is_free);
   }
 }
 

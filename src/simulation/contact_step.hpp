@@ -44,8 +44,15 @@ class ContactStep {
   /// act, `kick`; starts sending them back. All in s. `adhesion`: what else acts on the boundary, where the solid
   /// attracts the liquid; its forces are already among those of boundary_forces().
   void work(double time, double step, double kick, const AdhesionSummary& adhesion);
-  /// Adds the accelerations to liquid and boundary rows; collective if the drop is rigid.
-  void finish(FluidParticles& fluid, SolidParticles& solid);
+  /// Adds the accelerations to the liquid's rows and receives the forces on the boundary's; collective if the drop is
+  /// rigid.
+  void finish(FluidParticles& fluid);
+  /// After finish(), one of the two: adds the accelerations to the boundary's rows; or, where the solid takes several
+  /// steps in one of the liquid, gives its staggered velocities the whole impulse of forces that act on the liquid for
+  /// `kick` (s), so that no momentum is lost. Held over the solid's steps instead, the forces would do work on a
+  /// boundary that the liquid does not see move.
+  void accelerate_solid(SolidParticles& solid) const;
+  void kick_solid(SolidParticles& solid, double kick) const;
 
   /// On every rank, of the step last finished; known only where the drop is rigid, which takes the opposite.
   Load load_on_solid() const { return load_on_solid_; }

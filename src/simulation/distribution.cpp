@@ -31,7 +31,7 @@ Distribution::Distribution(const Communicator& communicator, const InteractionRa
       solid_reach_(solid_reach),
       partition_(communicator, range.list_reach(), imbalance_threshold) {}
 
-void Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bool force) {
+bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bool force) {
   std::vector<double> x, y;
   std::vector<std::int32_t> load;
   const auto collect = [&](const ParticleSet& set, const VectorField& place, std::int32_t cost) {
@@ -51,11 +51,26 @@ void Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
   for (std::size_t k = 0; k < x.size(); ++k) destination[k] = partition_.owner_of(x[k], y[k]);
   const std::size_t fluid_rows = fluid.owned_count();
   migrate(communicator_, fluid, std::span(destination).first(fluid_rows), tags::migration);
-  migrate(communicator_, solid, std::span(destination).subspan(fluid_rows), tags::migration + 1);
+  const std::span<const int> solid_destination = std::span(destination).subspan(fluid_rows);
+  const bool solid_changes = solid_changes_ranks(solid_destination);
+  if (solid_changes) migrate(communicator_, solid, solid_destination, tags::migration + 1);
   if (!drop_is_rigid_) make_fluid_ghosts(fluid);
   std::copy(fluid.position.x.begin(), fluid.position.x.end(), fluid.list_position.x.begin());
   std::copy(fluid.position.y.begin(), fluid.position.y.end(), fluid.list_position.y.begin());
-  make_solid_ghosts(solid);
+  if (solid_changes)
+    make_solid_ghosts(solid);
+  else
+    solid.list_position.take(solid.position);
+  has_distributed_solid_ = true;
+  return solid_changes;
+}
+
+// One that keeps its neighbours need not move unless the partition does.
+bool Distribution::solid_changes_ranks(std::span<const int> destination) const {
+  if (!solid_is_total_lagrangian_ || !has_distributed_solid_) return true;
+  const bool leaves =
+      std::any_of(destination.begin(), destination.end(), [&](int rank) { return rank != communicator_.rank(); });
+  return communicator_.max(static_cast<std::int64_t>(leaves ? 1 : 0)) > 0;
 }
 
 void Distribution::make_fluid_ghosts(FluidParticles& fluid) {

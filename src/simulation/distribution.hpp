@@ -1,6 +1,8 @@
 #pragma once
 // Which particles live here, which are here as ghosts, and who is whose neighbour.
 
+#include <span>
+
 #include "config/case.hpp"
 #include "decomposition/domain_partition.hpp"
 #include "decomposition/exchange_plan.hpp"
@@ -38,7 +40,8 @@ class Distribution {
   /// Collective. Moves every particle to the rank that owns its place (repartitioning if the loads ask for it, or
   /// `force`), makes ghosts of what other ranks hold within reach, and lists the neighbours. Needs the state columns of
   /// owned rows; afterwards those, the constant columns and the positions of ghosts are good, everything else is not.
-  void redistribute(FluidParticles& fluid, SolidParticles& solid, bool force);
+  /// Returns false if the solid is as it was, rows, ghosts and all, as a total-Lagrangian one mostly is.
+  bool redistribute(FluidParticles& fluid, SolidParticles& solid, bool force);
 
   ExchangePlan& fluid_halo() { return fluid_halo_; }
   ExchangePlan& solid_halo() { return solid_halo_; }
@@ -53,12 +56,14 @@ class Distribution {
   const PartitionQuality& quality() const { return partition_.quality(); }
 
  private:
+  bool solid_changes_ranks(std::span<const int> destination) const;
   void make_fluid_ghosts(FluidParticles& fluid);
   void make_solid_ghosts(SolidParticles& solid);
 
   const Communicator& communicator_;
   InteractionRange range_;
   bool drop_is_rigid_, solid_is_total_lagrangian_;
+  bool has_distributed_solid_ = false;
   double solid_reach_;
   DomainPartition partition_;
   ExchangePlan fluid_halo_, solid_halo_, wide_halo_;

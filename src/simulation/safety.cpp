@@ -99,11 +99,11 @@ void Simulation::stop_where_inverted() {
     double determinant, x, y;
   };
   std::vector<Inverted> mine;
-  if (const auto found = solid_step_->inversion(solid_)) {
-    const auto row =
-        static_cast<std::size_t>(std::lower_bound(solid_.id.begin(), solid_.id.end(), found->id) - solid_.id.begin());
+  if (inversion_) {
+    const auto row = static_cast<std::size_t>(std::lower_bound(solid_.id.begin(), solid_.id.end(), inversion_->id) -
+                                              solid_.id.begin());
     const Vector p = solid_.reference_position.at(row);
-    mine.push_back({found->id, found->determinant, p.x, p.y});
+    mine.push_back({inversion_->id, inversion_->determinant, p.x, p.y});
   }
   const std::vector<Inverted> all = communicator_.all_gather(std::span<const Inverted>(mine));
   if (all.empty()) return;

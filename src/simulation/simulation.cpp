@@ -29,8 +29,21 @@ enum Maximum : std::size_t {
   failure,
   requested,
   energy_of_shift,
-  maxima_count
+  displacements,                                // of the liquid: a box
+  detection_displacements = displacements + 4,  // likewise
+  maxima_count = detection_displacements + 4
 };
+
+void put_box(std::span<double> maxima, const DisplacementBox& box) {
+  maxima[0] = -box.low_x;
+  maxima[1] = box.high_x;
+  maxima[2] = -box.low_y;
+  maxima[3] = box.high_y;
+}
+
+DisplacementBox box_at(std::span<const double> maxima) {
+  return {-maxima[0], maxima[1], -maxima[2], maxima[3]};
+}
 
 SmoothingKernel smoothing_kernel(KernelShape shape, double smoothing_length) {
   if (shape == KernelShape::wendland_c2) return WendlandC2(smoothing_length);
@@ -92,6 +105,12 @@ DerivedParameters::DerivedParameters(const Case& c)
   // it the contact's stiffness (Eq 24).
   const bool heeds_fluid_speed = c.drop.is_liquid() || (has_drop && !is_elastic);
   time_step.sound_speed = std::max(heeds_fluid_speed ? c.fluid.sound_speed : 0.0, is_elastic ? solid_speed : 0.0);
+  if (c.time.solid_substeps > 1) {
+    time_step.sound_speed = solid_speed;
+    time_step.solid_substeps = static_cast<double>(c.time.solid_substeps);
+    time_step.liquid_sound_cfl = c.time.liquid_sound_cfl;
+    time_step.liquid_sound_speed = c.fluid.sound_speed;
+  }
   time_step.density = c.fluid.density;
   const bool has_tension = c.drop.is_liquid() && c.surface_tension.form != SurfaceTensionForm::none;
   time_step.surface_tension = has_tension ? c.surface_tension.coefficient : 0.0;
@@ -216,14 +235,11 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   if (communicator_.sum(again.hash()) != checkpoint.header.state_hash)
     throw CheckpointError(fmt::format("{}: the state read is not the one that was written", checkpoint.path.string()));
 
-  double detection_displacement = 0;
-  fluid_.for_each_owned([&](std::size_t row) {
-    detection_displacement =
-        std::max(detection_displacement, squared_length(fluid_.position.at(row) - fluid_.detection_position.at(row)));
-  });
+  const MotionMaxima motion = motion_maxima(fluid_, infinity, boxes_wanted());
   maxima_.finish();
   settled_ = {};
-  post_maxima({largest_squared_speed(fluid_), 0, detection_displacement}, {largest_squared_speed(solid_)}, 0);
+  post_maxima({motion.squared_speed, 0, motion.squared_detection_displacement, {}, motion.detection_displacements},
+              {largest_squared_speed(solid_)}, 0);
 }
 
 SavedSimulation Simulation::save() const {
@@ -266,10 +282,12 @@ void Simulation::evaluate() {
   const std::span<const double> maxima = std::exchange(settled_, {});
   detection_is_due_ =
       surface_tension_.is_enabled() &&
-      (step_ == 0 || maxima[squared_detection_displacement] >= surface_tension_.largest_squared_displacement());
+      (step_ == 0 || surface_tension_.detection_is_due(maxima[squared_detection_displacement],
+                                                       box_at(maxima.subspan(detection_displacements, 4))));
   const double squared_speed_now = maxima[squared_speed], squared_liquid_speed_now = maxima[squared_liquid_speed];
   squared_drop_speed_ = squared_liquid_speed_now;
-  redistribute_if_due(maxima[squared_displacement], maxima[squared_solid_displacement]);
+  redistribute_if_due(maxima[squared_displacement], maxima[squared_solid_displacement],
+                      box_at(maxima.subspan(displacements, 4)));
 
   solid_step_->predict(solid_, steps_.previous);
   if (rigid_body_.is_enabled())
@@ -304,12 +322,15 @@ void Simulation::evaluate() {
   sweep_the_rest();
 
   if (surface_tension_.is_enabled()) surface_tension_.finish(fluid_);
-  contact_.finish(fluid_, solid_);
+  contact_.finish(fluid_);
+  if (!has_substeps()) contact_.accelerate_solid(solid_);
   timer_.lap(Phase::communication);
-  if (is_relaxing())
+  if (is_relaxing()) {
     damp_resting_drop();
-  else
-    add_gravity();
+  } else {
+    if (!rigid_body_.is_enabled()) add_gravity(fluid_, fluid_.acceleration);
+    add_gravity(solid_, solid_.acceleration);
+  }
   if (has_density_diffusion()) account_for_density_diffusion();
   if (shifting_.is_due(step_)) find_shift(std::sqrt(squared_liquid_speed_now));
   if (rigid_body_.is_enabled()) add_forces_on_rigid_body();
@@ -320,15 +341,15 @@ void Simulation::move(double request) {
   const double limit = case_.safety.speed_limit;
   const bool was_relaxing = is_relaxing();
   shifting_.apply(fluid_);
-  MotionMaxima fluid =
-      rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit) : kick_and_drift(fluid_, steps_, limit);
-  const MotionMaxima solid = solid_step_->move(solid_, steps_, limit);
+  MotionMaxima fluid = rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit)
+                                                : kick_and_drift(fluid_, steps_, limit, boxes_wanted());
+  const MotionMaxima solid = has_substeps() ? move_solid_in_substeps(limit) : solid_step_->move(solid_, steps_, limit);
   time_ += steps_.next;
   ++step_;
   steps_.previous = steps_.next;
   if (was_relaxing && !is_relaxing()) {
     start_drop();
-    fluid = motion_maxima(fluid_, limit);
+    fluid = motion_maxima(fluid_, limit, boxes_wanted());
   }
   post_maxima(fluid, solid, request);
   timer_.lap(Phase::update);
@@ -346,37 +367,14 @@ void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& soli
   }
   mine[squared_detection_displacement] = fluid.squared_detection_displacement;
   const bool too_deep = contact_.owner() == communicator_.rank() && contact_.overlap_is_too_deep();
-  const bool unsound = fluid.beyond_limit || solid.beyond_limit || solid_step_->inversion(solid_).has_value();
+  if (!inversion_) inversion_ = solid_step_->inversion(solid_);
+  const bool unsound = fluid.beyond_limit || solid.beyond_limit || inversion_.has_value();
   mine[failure] = unsound || too_deep ? 1.0 : 0.0;
   mine[requested] = request;
+  put_box(std::span(mine).subspan(displacements, 4), fluid.displacements);
+  put_box(std::span(mine).subspan(detection_displacements, 4), fluid.detection_displacements);
   mine[energy_of_shift] = std::exchange(energy_of_shift_, -infinity);  // a number on one rank
   maxima_.start(mine);
-}
-
-void Simulation::redistribute_if_due(double largest_squared_displacement, double solid_squared_displacement) {
-  const double allowed = parameters_.range.largest_displacement();
-  const std::int64_t interval = case_.parallel.repartition_interval;
-  const bool forced = interval > 0 && step_ % interval == 0;
-  if (is_distributed_ && !forced && largest_squared_displacement <= allowed * allowed) {
-    // Such a solid stays with its ranks, but the drop may come upon another part of it.
-    if (solid_squared_displacement > allowed * allowed && fluid_total_ > 0) {
-      contact_.regather(fluid_, solid_, parameters_.range);
-      solid_.list_position.take(solid_.position);
-      timer_.lap(Phase::redistribution);
-    }
-    return;
-  }
-  distribution_.redistribute(fluid_, solid_, forced);
-  check_nothing_is_lost();
-  corrected_density_.resize(fluid_.size() + column_padding);
-  fluid_sweep_.resize(fluid_);
-  solid_step_->relist(solid_, distribution_);
-  contact_.regather(fluid_, solid_, parameters_.range);
-  if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_, contact_);
-  if (surface_tension_.is_enabled() && !is_distributed_) surface_tension_.recover(fluid_, distribution_, contact_);
-  is_distributed_ = true;
-  ++redistributions_;
-  timer_.lap(Phase::redistribution);
 }
 
 double Simulation::next_step_length(double squared_speed_now) const {
@@ -402,17 +400,13 @@ void Simulation::sweep_the_rest() {
   timer_.lap(Phase::solid_sweep);
 }
 
-void Simulation::add_gravity() {
+void Simulation::add_gravity(ParticleSet& set, VectorField& acceleration) const {
   const Vector g{case_.gravity.x, case_.gravity.y};
   if (g == Vector{}) return;
-  const auto add = [&](auto& set) {
-    set.for_each_owned([&](std::size_t row) {
-      set.acceleration.x[row] += g.x;
-      set.acceleration.y[row] += g.y;
-    });
-  };
-  if (!rigid_body_.is_enabled()) add(fluid_);
-  add(solid_);
+  set.for_each_owned([&](std::size_t row) {
+    acceleration.x[row] += g.x;
+    acceleration.y[row] += g.y;
+  });
 }
 
 void Simulation::add_forces_on_rigid_body() {

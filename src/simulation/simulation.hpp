@@ -2,6 +2,7 @@
 // The state of a run and its step (Sec. 2.6).
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -112,7 +113,10 @@ class Simulation {
   [[noreturn]] void stop_with_diagnosis();
   void stop_where_inverted();
   void check_nothing_is_lost();
-  void redistribute_if_due(double squared_displacement, double squared_solid_displacement);
+  void redistribute_if_due(double squared_displacement, double squared_solid_displacement,
+                           const DisplacementBox& displacements);
+  BoxesWanted boxes_wanted() const;
+  void regather_contact();
   /// Velocity, density and pressure at the present instant, ready for the sweep.
   void predict_liquid();
   void set_liquid_pressure(std::span<const RowRange> rows);
@@ -130,7 +134,11 @@ class Simulation {
   double next_step_length(double squared_speed) const;
   void sweep_what_needs_no_ghosts();
   void sweep_the_rest();
-  void add_gravity();
+  /// Whether the solid takes several steps in one of the liquid.
+  bool has_substeps() const { return case_.time.solid_substeps > 1; }
+  MotionMaxima move_solid_in_substeps(double speed_limit);
+  void evaluate_solid(double previous_step);
+  void add_gravity(ParticleSet& set, VectorField& acceleration) const;
   void add_forces_on_rigid_body();
 
   const Communicator& communicator_;
@@ -162,6 +170,9 @@ class Simulation {
   double request_ = 0;
   double squared_drop_speed_ = 0;
   double energy_of_shift_;  // at the surface's owner, J/m; minus infinity elsewhere and where nothing is shifted
+  std::optional<SolidStep::Inversion> inversion_;         // the first on this rank
+  std::optional<DisplacementBox> contact_displacements_;  // of the liquid, if contact was gathered anew since the lists
+  bool wants_displacements_ = false;                      // the drop may move as a whole
   bool is_distributed_ = false;
   bool detection_is_due_ = true;
   std::int64_t redistributions_ = 0, detections_ = 0;

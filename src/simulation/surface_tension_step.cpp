@@ -25,6 +25,8 @@ SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const C
       detection_displacement_(input.surface_tension.detection_displacement * input.resolution.spacing),
       polynomial_points_(static_cast<int>(input.surface_tension.polynomial_points)),
       orients_particles_(input.fluid.shifting == Switch::on),
+      displacement_is_relative_(input.surface_tension.detection_motion == DetectionMotion::relative &&
+                                !input.is_wetting()),
       finder_(support_),
       is_wetting_(is_enabled() && input.is_wetting()),
       adhesion_parameters_(adhesion_parameters(
@@ -53,6 +55,12 @@ void SurfaceTensionStep::detect(FluidParticles& fluid, const SolidParticles& sol
     reconnected_gauge_energy_ -= gauge_pressure * (present.area - old.area);
   }
   has_curves_ = true;
+}
+
+bool SurfaceTensionStep::detection_is_due(double squared_displacement, const DisplacementBox& displacements) const {
+  const double squared_limit = detection_displacement_ * detection_displacement_;
+  return squared_displacement >= squared_limit &&
+         (!displacement_is_relative_ || 0.25 * displacements.squared_diagonal() >= squared_limit);
 }
 
 void SurfaceTensionStep::recover(FluidParticles& fluid, Distribution& distribution, const ContactStep& contact) {
@@ -115,17 +123,17 @@ void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribu
   std::vector<Arc> arcs;
   std::vector<Vector> near_positions;
   std::vector<std::int64_t> near_ids;
-  const CellGrid kernel_grid(x, y, support_);
+  const CellGrid near_grid(x, y, finder_.near_reach() * (1.0 + 1e-9));
   const CellGrid wide_grid(x, y, 2.0 * support_);
   for (std::size_t i = 0; i < owned; ++i) {
     const Vector here{x[i], y[i]};
-    near_positions.clear();
-    kernel_grid.for_each_near(here, [&](std::int32_t j) {
-      const auto k = static_cast<std::size_t>(j);
-      if (k != i) near_positions.push_back({x[k], y[k]});
-    });
     // Most particles are inside: their nearest neighbours already cover their circle.
-    if (finder_.is_covered_by(here, near_positions)) continue;
+    unsigned octants = 0;
+    near_grid.for_each_near(here, [&](std::int32_t j) {
+      const auto k = static_cast<std::size_t>(j);
+      octants |= finder_.octant_of_near(Vector{x[k], y[k]} - here);
+    });
+    if (ArcFinder::covers_circle(octants)) continue;
     near_positions.clear();
     near_ids.clear();
     wide_grid.for_each_near(here, [&](std::int32_t j) {

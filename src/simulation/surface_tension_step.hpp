@@ -14,6 +14,7 @@
 #include "surface_tension/force_sharing.hpp"
 #include "surface_tension/surface_curve.hpp"
 #include "surface_tension/surface_force.hpp"
+#include "time_integration/leapfrog.hpp"
 #include "wetting/adhesion.hpp"
 
 namespace sphdrop {
@@ -42,8 +43,11 @@ class SurfaceTensionStep {
   SurfaceTensionStep(const Communicator& communicator, const Case& input, const SmoothingKernel& kernel);
 
   bool is_enabled() const { return form_ != SurfaceTensionForm::none; }
-  /// The squared displacement from detection_position at which detect() is due, m2.
-  double largest_squared_displacement() const { return detection_displacement_ * detection_displacement_; }
+  /// Whether only motion against the drop as a whole counts.
+  bool displacement_is_relative() const { return displacement_is_relative_; }
+  /// Whether detect() is due: some particle has moved so far since the last one, by its largest squared displacement
+  /// from there, m2, or, where motion counts as relative, from the middle of all displacements.
+  bool detection_is_due(double squared_displacement, const DisplacementBox& displacements) const;
 
   /// Collective. Takes the present positions as those of detection, and finds the surface's arcs in them.
   /// `gauge_pressure` (Pa) is for the ledger.
@@ -108,7 +112,7 @@ class SurfaceTensionStep {
   SurfaceTensionForm form_;
   double coefficient_, spacing_, support_, detection_displacement_;
   int polynomial_points_;
-  bool orients_particles_;
+  bool orients_particles_, displacement_is_relative_;
   ArcFinder finder_;
 
   // On every rank: the arcs of the last detection and where their particles were.

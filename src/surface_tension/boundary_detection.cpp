@@ -59,21 +59,9 @@ const ArcFinder::Cover* ArcFinder::farthest_reaching(Vector direction) const {
 }
 
 bool ArcFinder::is_covered_by(Vector centre, std::span<const Vector> neighbour_positions) const {
-  unsigned occupied = 0;  // octants of directions that hold a near neighbour
-  for (const Vector position : neighbour_positions) {
-    const Vector separation = position - centre;
-    const double squared_distance = squared_length(separation);
-    const bool is_near = squared_distance < near_squared_distance_ && squared_distance > 0.0;
-    const bool left = separation.x < 0.0;
-    const bool below = separation.y < 0.0;
-    const bool steep = std::abs(separation.y) > std::abs(separation.x);
-    const unsigned octant = 4U * below + 2U * (left != below) + 1U * ((left != below) != steep);  // counterclockwise
-    occupied |= static_cast<unsigned>(is_near) << octant;
-  }
-  // A near neighbour covers more than an octant and a half to either side. Where no two octants in a row are empty,
-  // such neighbours are at most three octants apart and leave no gap.
-  const unsigned twice_round = occupied | occupied << 8U;
-  return ((twice_round | twice_round >> 1U) & 0xFFU) == 0xFFU;
+  unsigned octants = 0;
+  for (const Vector position : neighbour_positions) octants |= octant_of_near(position - centre);
+  return covers_circle(octants);
 }
 
 void ArcFinder::find(std::int64_t particle, Vector centre, std::span<const std::int64_t> neighbour_ids,

@@ -1,6 +1,7 @@
 #pragma once
 // Which particles lie on the liquid's boundary, and which part of it each one holds (Sec 2.5; Dilts 2000).
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,6 +37,26 @@ class ArcFinder {
   /// whole circle; then the particle has no arcs, whatever other neighbours it has. The kernel's own neighbours are
   /// enough to sort out nearly all interior particles. False says nothing.
   bool is_covered_by(Vector centre, std::span<const Vector> neighbour_positions) const;
+
+  /// The same in parts, for whoever goes through the neighbours anyway: the bit of the octant of directions that holds
+  /// a neighbour, 0 if it is not nearer than near_reach(), and whether the bits of all neighbours cover the circle.
+  unsigned octant_of_near(Vector separation) const {
+    const double squared_distance = squared_length(separation);
+    const bool is_near = squared_distance < near_squared_distance_ && squared_distance > 0.0;
+    const bool left = separation.x < 0.0;
+    const bool below = separation.y < 0.0;
+    const bool steep = std::abs(separation.y) > std::abs(separation.x);
+    const unsigned octant = 4U * below + 2U * (left != below) + 1U * ((left != below) != steep);  // counterclockwise
+    return static_cast<unsigned>(is_near) << octant;
+  }
+  /// A near neighbour covers more than an octant and a half to either side. Where no two octants in a row are empty,
+  /// such neighbours are at most three octants apart and leave no gap.
+  static bool covers_circle(unsigned octants) {
+    const unsigned twice_round = octants | octants << 8U;
+    return ((twice_round | twice_round >> 1U) & 0xFFU) == 0xFFU;
+  }
+  /// m
+  double near_reach() const { return std::sqrt(near_squared_distance_); }
 
  private:
   /// The part of the particle's circle that one neighbour covers: counterclockwise from start to end, under half a

@@ -53,6 +53,31 @@ class SquaredMaximum {
   double tail_ = 0.0, tail_poison_ = 0.0;
 };
 
+// The rectangle about vectors, in the same way.
+class BoxMaximum {
+ public:
+  void add(const Pack& x, const Pack& y) {
+    low_x_ = min(low_x_, x);
+    high_x_ = max(high_x_, x);
+    low_y_ = min(low_y_, y);
+    high_y_ = max(high_y_, y);
+  }
+  void add(double x, double y) {
+    tail_.low_x = std::min(tail_.low_x, x);
+    tail_.high_x = std::max(tail_.high_x, x);
+    tail_.low_y = std::min(tail_.low_y, y);
+    tail_.high_y = std::max(tail_.high_y, y);
+  }
+  DisplacementBox value() const {
+    return {std::min(hmin(low_x_), tail_.low_x), std::max(hmax(high_x_), tail_.high_x),
+            std::min(hmin(low_y_), tail_.low_y), std::max(hmax(high_y_), tail_.high_y)};
+  }
+
+ private:
+  DisplacementBox tail_;
+  Pack low_x_{tail_.low_x}, high_x_{tail_.high_x}, low_y_{tail_.low_y}, high_y_{tail_.high_y};
+};
+
 /// |a|, or |a - b|, over the rows.
 void add_rows(std::span<const RowRange> rows, const VectorField& a, SquaredMaximum& maximum) {
   for (const RowRange& range : rows) {
@@ -70,9 +95,25 @@ void add_rows(std::span<const RowRange> rows, const VectorField& a, const Vector
   }
 }
 
+/// The box about a - b over the rows.
+DisplacementBox box_about(std::span<const RowRange> rows, const VectorField& a, const VectorField& b) {
+  BoxMaximum box;
+  for (const RowRange& range : rows) {
+    std::int64_t row = range.begin;
+    for (; row + pack_size <= range.end; row += pack_size)
+      box.add(load(a.x.data() + row) - load(b.x.data() + row), load(a.y.data() + row) - load(b.y.data() + row));
+    for (; row < range.end; ++row) box.add(a.x.data()[row] - b.x.data()[row], a.y.data()[row] - b.y.data()[row]);
+  }
+  return box.value();
+}
+
 MotionMaxima finish(const SquaredMaximum& speed, const SquaredMaximum& moved, const SquaredMaximum& detected,
                     double speed_limit) {
-  return {speed.value(), moved.value(), detected.value(),
+  return {speed.value(),
+          moved.value(),
+          detected.value(),
+          {},
+          {},
           !speed.is_sound() || !moved.is_sound() || !(speed.value() <= speed_limit * speed_limit)};
 }
 
@@ -101,15 +142,19 @@ void predict_velocity(SolidParticles& s, double previous_step) {
   advance_column(s.owned, half, s.acceleration.y, s.staggered_velocity.y, s.velocity.y);
 }
 
-MotionMaxima motion_maxima(const FluidParticles& f, double speed_limit) {
+MotionMaxima motion_maxima(const FluidParticles& f, double speed_limit, BoxesWanted boxes) {
   SquaredMaximum speed, moved, detected;
   add_rows(f.owned, f.staggered_velocity, speed);
   add_rows(f.owned, f.position, f.list_position, moved);
   add_rows(f.owned, f.position, f.detection_position, detected);
-  return finish(speed, moved, detected, speed_limit);
+  MotionMaxima maxima = finish(speed, moved, detected, speed_limit);
+  if (boxes.displacements) maxima.displacements = box_about(f.owned, f.position, f.list_position);
+  if (boxes.detection_displacements)
+    maxima.detection_displacements = box_about(f.owned, f.position, f.detection_position);
+  return maxima;
 }
 
-MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_limit) {
+MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_limit, BoxesWanted boxes) {
   advance_column(f.owned, steps.kick(), f.acceleration.x, f.staggered_velocity.x, f.staggered_velocity.x);
   advance_column(f.owned, steps.kick(), f.acceleration.y, f.staggered_velocity.y, f.staggered_velocity.y);
   advance_column(f.owned, steps.kick(), f.density_rate.columns[0], f.staggered_density.columns[0],
@@ -117,7 +162,7 @@ MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_l
   advance_column(f.owned, steps.next, f.staggered_velocity.x, f.position.x, f.position.x);
   advance_column(f.owned, steps.next, f.staggered_velocity.y, f.position.y, f.position.y);
   accumulate_energy(f.owned, steps.next, f.mass, f.dissipation_rate, f.dissipated_energy);
-  return motion_maxima(f, speed_limit);
+  return motion_maxima(f, speed_limit, boxes);
 }
 
 MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_limit) {

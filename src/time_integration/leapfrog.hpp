@@ -6,6 +6,8 @@
 // Before the first step the staggered values are those at t = 0: with previous step 0, predict() copies and kick()
 // takes half a step.
 
+#include <algorithm>
+#include <limits>
 #include <span>
 
 #include "particles/fluid_particles.hpp"
@@ -21,17 +23,42 @@ struct StepLengths {
   double kick() const { return 0.5 * (previous + next); }
 };
 
+/// The smallest rectangle that holds the displacements of all particles, m: what they have in common moves it and does
+/// not widen it. Of no particles it is empty.
+struct DisplacementBox {
+  double low_x = std::numeric_limits<double>::infinity(), high_x = -low_x;
+  double low_y = low_x, high_y = -low_x;
+
+  /// Of the diagonal: no two displacements differ by more, m2.
+  double squared_diagonal() const {
+    const double x = high_x - low_x, y = high_y - low_y;
+    return x * x + y * y;
+  }
+  /// Bound of what any particle has moved since its displacement was in the box `earlier`, m2.
+  double squared_motion_since(const DisplacementBox& earlier) const {
+    const double x = std::max(high_x - earlier.low_x, earlier.high_x - low_x);
+    const double y = std::max(high_y - earlier.low_y, earlier.high_y - low_y);
+    return x * x + y * y;
+  }
+};
+
 /// What a step does to the fastest and the farthest-moved particle; maxima over owned rows, squared: m2/s2, m2.
 struct MotionMaxima {
   double squared_speed = 0;
-  double squared_displacement = 0;            ///< from list_position
-  double squared_detection_displacement = 0;  ///< from detection_position (liquid)
+  double squared_displacement = 0;                         ///< from list_position
+  double squared_detection_displacement = 0;               ///< from detection_position (liquid)
+  DisplacementBox displacements, detection_displacements;  ///< from the same positions (liquid)
   /// A particle is faster than allowed, or its velocity is not a number.
   bool beyond_limit = false;
 };
 
+/// Which boxes to look for; the others stay empty.
+struct BoxesWanted {
+  bool displacements = false, detection_displacements = false;
+};
+
 /// Of the staggered velocity and the position as they stand. `speed_limit` in m/s.
-MotionMaxima motion_maxima(const FluidParticles& fluid, double speed_limit);
+MotionMaxima motion_maxima(const FluidParticles& fluid, double speed_limit, BoxesWanted boxes = {});
 
 /// Velocity and density (and deviatoric stress) of the owned rows at t from the staggered ones.
 void predict(FluidParticles& fluid, double previous_step);
@@ -42,7 +69,7 @@ void predict_velocity(SolidParticles& solid, double previous_step);
 
 /// Velocity, density (and deviatoric stress) from t - previous/2 to t + next/2, position from t to t + next (36-39);
 /// held particles (is_fixed 1) stay. `speed_limit` in m/s.
-MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit);
+MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit, BoxesWanted boxes = {});
 MotionMaxima kick_and_drift(SolidParticles& solid, StepLengths steps, double speed_limit);
 
 /// The same for a solid whose stress follows from its position: velocity and position, and if `is_heated` the

@@ -18,6 +18,11 @@ struct TimeStepLimits {
   double surface_tension = 0;   ///< sigma, N/m; 0 lifts (41)
   double viscosity = 0;         ///< mu, Pa s; 0 lifts (42)
   double viscous_time = 0;      ///< of a solid with stiffness-proportional damping, s
+  /// Of the solid in a step. If there are several, sound_speed is the solid's alone, and (40) of the sub-steps and of
+  /// the liquid with factor and sound speed of its own are what counts.
+  double solid_substeps = 1;
+  double liquid_sound_cfl = 0;
+  double liquid_sound_speed = 0;  ///< m/s
 };
 
 /// 0.1 h/(c + u_max), s (40). Stiffness-proportional damping shortens it by sqrt(1 + z^2) - z (Belytschko, Liu & Moran
@@ -40,9 +45,16 @@ inline double viscous_time_step(const TimeStepLimits& l) {
   if (l.viscosity <= 0) return std::numeric_limits<double>::infinity();
   return l.viscous_cfl * l.density * (l.smoothing_length * l.smoothing_length) / l.viscosity;
 }
+/// (40) of a solid that takes sub-steps and of the liquid that waits for it, s; without sub-steps of both together.
+inline double sound_time_step(const TimeStepLimits& l, double largest_speed) {
+  const double step = acoustic_time_step(l, largest_speed);
+  if (l.solid_substeps <= 1) return step;
+  return std::min(l.solid_substeps * step,
+                  l.liquid_sound_cfl * l.smoothing_length / (l.liquid_sound_speed + largest_speed));
+}
 /// The smallest of the three, s.
 inline double stable_time_step(const TimeStepLimits& l, double largest_speed) {
-  return std::min({acoustic_time_step(l, largest_speed), capillary_time_step(l), viscous_time_step(l)});
+  return std::min({sound_time_step(l, largest_speed), capillary_time_step(l), viscous_time_step(l)});
 }
 
 }  // namespace sphdrop

@@ -100,7 +100,8 @@ youngs_modulus = 6e6
 INSTANTIATE_TEST_SUITE_P(Solids, Restart,
                          testing::Values("solid.formulation=hypoelastic", "solid.formulation=cells",
                                          "solid.formulation=total_lagrangian", "solid.viscous_time=1e-8",
-                                         "solid.damping_ratio=0.2"),
+                                         "solid.damping_ratio=0.2", "time.solid_substeps=3",
+                                         "surface_tension.detection_motion=relative"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::replace_if(

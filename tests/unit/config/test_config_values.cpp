@@ -121,6 +121,33 @@ TEST(Defaults, OfModeModernAreWhatWorksBetter) {
               1e-12);
 }
 
+TEST(Defaults, OfModeFastAreModernOnesWithLongerSteps) {
+  const Case c = read({"mode=fast"});
+  EXPECT_EQ(c.solid.formulation, SolidFormulation::cells);
+  EXPECT_EQ(c.contact.stiffness_form, ContactStiffness::fixed);
+  EXPECT_EQ(c.time.sound_cfl, 0.5);
+  EXPECT_EQ(c.time.solid_substeps, 3);
+  EXPECT_EQ(c.surface_tension.detection_motion, DetectionMotion::relative);
+  EXPECT_EQ(c.fluid.density_correction_interval, 10);
+  // A soft beam has no need of them, a hypoelastic one cannot take them; without a beam it is mode modern.
+  EXPECT_EQ(read({"mode=fast", "solid.youngs_modulus=6e6"}).time.solid_substeps, 1);
+  EXPECT_EQ(read({"mode=fast", "solid.formulation=hypoelastic"}).time.solid_substeps, 1);
+  EXPECT_EQ(read({"mode=fast", "solid.kind=rigid_wall"}).time.sound_cfl, 0.2);
+  EXPECT_EQ(read({"mode=fast", "solid.kind=rigid_wall"}).time.solid_substeps, 1);
+  EXPECT_EQ(read({"mode=fast", "time.solid_substeps=2"}).time.solid_substeps, 2);
+  // The liquid's sound asks for fewer.
+  EXPECT_EQ(read({"mode=fast", "time.liquid_sound_cfl=0.1"}).time.solid_substeps, 2);
+  EXPECT_EQ(read({"mode=modern"}).time.solid_substeps, 1);
+  EXPECT_EQ(read({"mode=modern"}).surface_tension.detection_motion, DetectionMotion::absolute);
+}
+
+TEST(Defaults, SubstepsThatRingAreDoubted) {
+  expect_warning({"mode=fast"}, "");
+  expect_warning({"mode=fast", "time.solid_substeps=4"}, "ring");
+  expect_warning({"mode=fast", "time.solid_substeps=4", "time.sound_cfl=0.4"}, "");
+  expect_warning({"mode=fast", "time.step=120e-9"}, "ring");
+}
+
 TEST(DerivedDefaults, FollowFromTheOthers) {
   const Case c = read();
   EXPECT_EQ(c.name, "impact");

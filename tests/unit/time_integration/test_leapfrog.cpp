@@ -112,6 +112,36 @@ TYPED_TEST(LeapFrog, ConvergesWithTheSquareOfTheStep) {
     }
 }
 
+// Thirteen rows: lanes and a tail.
+TEST(DisplacementBox, IsAsWideAsTheDisplacementsDiffer) {
+  FluidParticles p;
+  make_rows(p, 13);
+  const Vector common{3.0, -4.0};
+  for (std::size_t k = 0; k < 13; ++k) {
+    p.list_position.set(k, {0.1 * static_cast<double>(k), 1.0});
+    p.position.set(k, p.list_position.at(k) + common);
+    p.detection_position.set(k, p.position.at(k));
+  }
+  const auto box = [&] { return motion_maxima(p, no_limit, {true, true}).displacements; };
+  EXPECT_NEAR(box().squared_diagonal(), 0.0, 1e-28);
+  EXPECT_NEAR(box().squared_motion_since({0.0, 0.0, 0.0, 0.0}), 25.0, 1e-13);
+  EXPECT_NEAR(box().squared_motion_since(box()), 0.0, 1e-28);
+  const DisplacementBox before = box();
+  for (const std::size_t k : {2, 12}) {
+    const Vector place = p.position.at(k);
+    p.position.set(k, place + Vector{0.3, -0.4});
+    EXPECT_NEAR(box().squared_diagonal(), 0.25, 1e-14);
+    EXPECT_NEAR(box().squared_motion_since(before), 0.25, 1e-14);
+    const DisplacementBox of_detection = motion_maxima(p, no_limit, {false, true}).detection_displacements;
+    EXPECT_NEAR(of_detection.squared_diagonal(), 0.25, 1e-14);
+    EXPECT_NEAR(of_detection.high_x, 0.3, 1e-14);
+    EXPECT_NEAR(of_detection.low_y, -0.4, 1e-14);
+    p.position.set(k, place);
+  }
+  // What is not looked for is empty, and wider than any limit.
+  EXPECT_GT(motion_maxima(p, no_limit).displacements.squared_diagonal(), 1e300);
+}
+
 TYPED_TEST(LeapFrog, KeepsTheEnergyOfAnOscillatorBounded) {
   TypeParam p;
   make_rows(p, 1);

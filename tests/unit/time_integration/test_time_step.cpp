@@ -49,6 +49,17 @@ TEST(TimeStep, IsTheSmallestOfTheThree) {
   EXPECT_EQ(stable_time_step(l, 2.0), viscous_time_step(l));
 }
 
+TEST(TimeStep, IsThatOfSolidOrLiquidWhereTheSolidTakesSubsteps) {
+  TimeStepLimits l = paper;  // 6 ns of the solid
+  l.solid_substeps = 3;
+  l.liquid_sound_cfl = 0.25;
+  l.liquid_sound_speed = 50;
+  EXPECT_NEAR(stable_time_step(l, 0.0), 18e-9, 1e-21);
+  l.solid_substeps = 40;
+  EXPECT_NEAR(stable_time_step(l, 0.0), 0.25 * 3e-5 / 50, 1e-21);
+  EXPECT_NEAR(stable_time_step(l, 25.0), 0.25 * 3e-5 / 75, 1e-21);
+}
+
 TEST(TimeStep, ShrinksAsParticlesSpeedUp) {
   EXPECT_NEAR(acoustic_time_step(paper, 500.0), 3e-9, 1e-22);
   EXPECT_LT(acoustic_time_step(paper, 1.0), acoustic_time_step(paper, 0.0));
