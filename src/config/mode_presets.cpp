@@ -22,12 +22,16 @@ bool has_surface_alone(const Case& values) {
 
 // The clamp's edge is exact for cells alone.
 bool has_beam_of_cells(const Case& values) {
-  return has_beam(values) && (values.solid.formulation == SolidFormulation::automatic ||
-                              values.solid.formulation == SolidFormulation::cells);
+  return values.solid.is_elastic() && (values.solid.formulation == SolidFormulation::automatic ||
+                                       values.solid.formulation == SolidFormulation::cells);
+}
+
+bool is_beam(const Case& values) {
+  return values.solid.is_elastic();
 }
 
 bool has_contact(const Case& values) {
-  return has_drop(values) && values.solid.kind != SolidKind::none;
+  return has_drop(values) && values.has_solid();
 }
 
 constexpr Preset presets[] = {
@@ -35,7 +39,7 @@ constexpr Preset presets[] = {
     {"fluid.artificial_viscosity_alpha", "0.0", "of one drop without a beam", has_one_drop_without_beam},
     {"fluid.gauge_pressure", "\"on\"", "of one drop without a beam", has_surface_alone},
     {"fluid.shifting", "\"on\"", "of one drop without a beam", has_surface_alone},
-    {"solid.formulation", "\"cells\"", "", has_beam},
+    {"solid.formulation", "\"cells\"", "", is_beam},
     {"solid.clamp", "\"ideal\"", "", has_beam_of_cells},
     {"contact.stiffness_form", "\"fixed\"", "", has_contact},
 };

@@ -102,7 +102,7 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
     text += fmt::format("rigid drop          {:.6g} kg/m, moment of inertia {:.6g} kg m2/m\n", body.mass,
                         body.moment_of_inertia);
   }
-  if (c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam) {
+  if (c.solid.has_theory()) {
     const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
                               c.solid.thickness};
     const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
@@ -116,9 +116,9 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
                           1e3 * (is_cantilever ? cantilever_depth_under_weight(beam, -c.gravity.y)
                                                : fixed_fixed_depth_under_weight(beam, -c.gravity.y)),
                           is_cantilever ? "the free end" : "mid-span");
-    if (simulation.parameters().damping_rate > 0)
+    if (simulation.parameters().damping_rate.front() > 0)
       text += fmt::format("damping of the beam {:.4g} of critical in its first mode\n",
-                          damping_ratio(simulation.parameters().damping_rate, omega));
+                          damping_ratio(simulation.parameters().damping_rate.front(), omega));
     if (is_cantilever && c.drop.shape == DropShape::round && c.drop.velocity_y < 0) {
       const double depth =
           cantilever_largest_deflection(beam, round_drop_mass(c.drop.density, c.drop.diameter), -c.drop.velocity_y);
