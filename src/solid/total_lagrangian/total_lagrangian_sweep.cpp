@@ -71,6 +71,9 @@ void TotalLagrangianSweep::relist(const SolidParticles& s, const std::vector<cha
   clear(load_, s.size());
   heating_.resize(0);
   heating_.resize(s.size());
+  // Whether or not a block of deformed rows happens to reach over them.
+  for (std::size_t row = 0; row < is_rigid.size(); ++row)
+    if (is_rigid[row] != 0) gradient_[0][row] = gradient_[3][row] = 1.0;
   // Rows that are not deformed here keep B = 0, hence F = I and no load.
   for (const OffsetNeighbours::Block& block : deformed_.blocks) {
     const std::int32_t* offsets = deformed_.offsets.data() + block.first_offset;

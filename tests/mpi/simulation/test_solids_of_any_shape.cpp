@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, ShapeEquality,
                                          ShapeCase{"leaf_on_its_lattice", leaf_on_its_lattice, 300, 0xbe758811fea54029},
                                          ShapeCase{"hypoelastic_leaf", hypoelastic_leaf, 250, 0xaa568471617d2b18},
                                          ShapeCase{"total_lagrangian_leaf", total_lagrangian_leaf, 250,
-                                                   0xd622261292b862e2},
+                                                   0xc02702f08581d31c},
                                          ShapeCase{"many", many, 300, 0x2e2fb1e15cbcebd5},
                                          ShapeCase{"wetted_obstacle", wetted_obstacle, 250, 0xc3ccb78e0cd4e898}),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
