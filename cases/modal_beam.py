@@ -34,6 +34,8 @@ MODES = 12
 def beam_of(run: Run, theory: type[Beam] = Beam) -> Beam:
     """The run's beam. Raises ResultError if its solid is none."""
     solid = tomllib.loads(run.case_text)["solid"]
+    if isinstance(solid, list):
+        raise ResultError(f"{run.directory}: the case has {len(solid)} solids; a modal beam is one straight beam by itself")
     if solid["kind"] not in ("cantilever", "fixed_fixed_beam"):
         raise ResultError(f"{run.directory}: solid.kind is {solid['kind']}: there is no beam to compare with")
     names = ("length", "thickness", "youngs_modulus", "poisson_ratio", "density")

@@ -26,7 +26,8 @@ RECORDED = ("status", "state_hash", "particles", "steps", "ranks")
 
 def numbers_of(run: Run) -> dict[str, float]:
     """NUMBERS of a run: what theory says before it runs (Eqs 44 and 46 for a beam); NaN where it says nothing."""
-    case = beam_quantities.case_of(run)
+    whole = beam_quantities.case_of(run)
+    case = with_first_bodies(whole)
     drop, fluid = case.get("drop", {}), case.get("fluid", {})
     found = dict.fromkeys(NUMBERS, math.nan)
     if drop.get("shape", "none") != "none" and "velocity" in drop:
@@ -35,10 +36,15 @@ def numbers_of(run: Run) -> dict[str, float]:
         if drop.get("material") != "rigid":
             found["weber_number [1]"] = density * speed**2 * size / float(case["surface_tension"]["coefficient"])
             found["reynolds_number [1]"] = density * speed * size / fluid["viscosity"] if fluid["viscosity"] > 0 else math.inf
-    if bends(case) and "length" in case["solid"]:
+    if whole["solid"] == case["solid"] and bends(case) and "length" in case["solid"]:
         theory = beam_quantities.theory_of(run)
         found["beam_period [s]"], found["deflection_theory [m]"] = theory.period, theory.largest_deflection
     return found
+
+
+def with_first_bodies(case: dict[str, Any]) -> dict[str, Any]:
+    """The case as if of several drops or solids there were the first alone, which the history's own columns are about."""
+    return {section: values[0] if isinstance(values, list) else values for section, values in case.items()}
 
 
 def bends(case: dict[str, Any]) -> bool:
@@ -47,8 +53,8 @@ def bends(case: dict[str, Any]) -> bool:
 
 def measured(run: Run) -> dict[str, float]:
     """MEASURED of a finished run; NaN where it has none, as the contact time of a drop that has not left."""
-    case = beam_quantities.case_of(run)
-    is_beam, has_drop = bends(case), case["drop"]["shape"] != "none"
+    case = with_first_bodies(beam_quantities.case_of(run))
+    is_beam, has_drop = bends(case) or case["solid"]["kind"] == "polygon", case["drop"]["shape"] != "none"
     touches = has_drop and case["solid"]["kind"] != "none"
     contact_time: Callable[[Any], float] = beam_quantities.contact_time if is_beam else quantities.contact_time
     impulse_time: Callable[[Any], float] = beam_quantities.impulse_time if is_beam else quantities.impulse_time

@@ -32,11 +32,34 @@ def title_of(run: Run) -> str:
     return str(case_of(run).get("name", run.directory.name))
 
 
+def bodies_of(case: dict[str, Any], section: str) -> list[dict[str, Any]]:
+    """The drops or solids of a case, one or several."""
+    found = case.get(section, {})
+    return found if isinstance(found, list) else [found]
+
+
 def set_up(run: Run) -> list[tuple[str, str]]:
     """What was asked for, and the numbers that decide what happens."""
     case = case_of(run)
-    drop, fluid, solid = (case.get(section, {}) for section in ("drop", "fluid", "solid"))
     lines = []
+    for drop in bodies_of(case, "drop"):
+        lines += set_up_of_drop(drop, case)
+    for solid in bodies_of(case, "solid"):
+        if solid.get("kind", "none") in ("cantilever", "fixed_fixed_beam"):
+            lines.append(("beam", f"{solid['kind'].replace('_', ' ')}, L = {number(solid['length'] * MILLI, 'mm')}, "
+                                  f"H = {number(solid['thickness'] * MILLI, 'mm')}, E = {number(solid['youngs_modulus'] / 1e6, 'MPa')}"))
+        elif solid.get("kind", "none") == "polygon":
+            lines.append(("solid", f"polygon of {len(solid['polygon'])} corners, {number(solid['length'] * MILLI, 'mm')} long, "
+                                   f"E = {number(solid['youngs_modulus'] / 1e6, 'MPa')}"))
+        elif solid.get("kind", "none") != "none":
+            lines.append(("solid", solid["kind"].replace("_", " ")))
+    if "resolution" in case:
+        lines.append(("spacing", number(case["resolution"]["spacing"] * MILLI, "mm")))
+    return lines
+
+
+def set_up_of_drop(drop: dict[str, Any], case: dict[str, Any]) -> list[tuple[str, str]]:
+    fluid, lines = case.get("fluid", {}), []
     diameter = float(drop.get("diameter", 0))
     if drop.get("shape", "none") != "none" and diameter > 0:
         speed = math.hypot(*drop.get("velocity", [0, 0]))
@@ -47,13 +70,6 @@ def set_up(run: Run) -> list[tuple[str, str]]:
             lines.append(("Weber number", number(density * speed**2 * diameter / tension, digits=3)))
         if float(fluid.get("viscosity", 0)) > 0 and speed > 0 and drop.get("material") != "rigid":
             lines.append(("Reynolds number", number(density * speed * diameter / fluid["viscosity"], digits=3)))
-    if solid.get("kind", "none") in ("cantilever", "fixed_fixed_beam"):
-        lines.append(("beam", f"{solid['kind'].replace('_', ' ')}, L = {number(solid['length'] * MILLI, 'mm')}, "
-                              f"H = {number(solid['thickness'] * MILLI, 'mm')}, E = {number(solid['youngs_modulus'] / 1e6, 'MPa')}"))
-    elif solid.get("kind", "none") != "none":
-        lines.append(("solid", solid["kind"].replace("_", " ")))
-    if "resolution" in case:
-        lines.append(("spacing", number(case["resolution"]["spacing"] * MILLI, "mm")))
     return lines
 
 

@@ -13,7 +13,7 @@ enum class DropShape { none, round, square, ellipse };
 enum class DropArrangement { rings, lattice };
 enum class DropPlacement { above_solid, centre };
 enum class DropMaterial { liquid, rigid };
-enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall };
+enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall, polygon, obstacle };
 enum class SolidFormulation { automatic, hypoelastic, cells, total_lagrangian };
 enum class MaterialLaw { st_venant_kirchhoff, neo_hookean };
 enum class Clamp { strips, ideal };
@@ -25,6 +25,13 @@ enum class ViscosityForm { artificial, physical };
 enum class DensityTreatment { none, moving_least_squares, density_diffusion };
 enum class DetectionMotion { absolute, relative };
 enum class Switch { off, on };
+
+/// A place of the plane, m.
+struct Point {
+  double x = 0, y = 0;
+  bool operator==(const Point&) const = default;
+};
+using Points = std::vector<Point>;
 
 /// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
 /// the table in config/parameter_table.cpp and nowhere else.
@@ -115,8 +122,23 @@ struct Case {
     double damping_ratio = 0;  ///< of critical damping in the first bending mode; as much damping in proportion to mass
     double viscous_time = 0;   ///< s, in proportion to stiffness: stress by strain rate over stress by strain
     double initial_tip_velocity = 0;  ///< m/s, along +y (up); of the cantilever's first bending mode
+    Points polygon;                   ///< corners of a body of kind polygon or obstacle, either way round
+    /// Parts of the plane in which a polygon is held: two points are opposite corners of a box, more are a polygon.
+    std::vector<Points> clamps;
+    double lattice_x = 1, lattice_y = 0;  ///< direction of the rows of a polygon's lattice, of any length
+    Points pinned, held_in_x, held_in_y;  ///< where it is held in both directions, or in one
+    Points probe;                         ///< where the deflection is watched; empty: automatic
+    double origin_x = 0, origin_y = 0;    ///< by which the whole body is moved, m; all places above move with it
+    /// Whether theory knows how it swings: a straight beam that nothing but its clamps holds.
+    bool has_theory() const { return is_straight_beam() && pinned.empty() && held_in_x.empty() && held_in_y.empty(); }
+    /// Whether it is a beam with two parallel sides.
+    bool is_straight_beam() const { return kind == SolidKind::cantilever || kind == SolidKind::fixed_fixed_beam; }
+    /// Whether it yields and moves.
+    bool is_elastic() const { return is_straight_beam() || kind == SolidKind::polygon; }
+    bool has_polygon() const { return kind == SolidKind::polygon || kind == SolidKind::obstacle; }
     bool operator==(const Solid&) const = default;
   } solid;
+  std::vector<Solid> more_solids;  ///< beside `solid`
 
   struct Contact {
     ContactStiffness stiffness_form = ContactStiffness::time_step;
@@ -174,8 +196,14 @@ struct Case {
   /// Pa, of which contact.stiffness is a share where it is fixed: rho c^2 of the body that yields, the liquid; with a
   /// rigid drop the beam; where neither yields, of the liquid all the same, which sets the time step there too.
   double contact_modulus() const {
-    const bool has_beam = solid.kind == SolidKind::cantilever || solid.kind == SolidKind::fixed_fixed_beam;
-    if (drop.is_rigid() && has_beam) return solid.youngs_modulus / (3.0 * (1.0 - 2.0 * solid.poisson_ratio));
+    double smallest = 0;
+    for (std::size_t k = 0; drop.is_rigid() && k < solid_count(); ++k) {
+      const Solid& one = solid_at(k);
+      if (!one.is_elastic()) continue;
+      const double bulk_modulus = one.youngs_modulus / (3.0 * (1.0 - 2.0 * one.poisson_ratio));
+      if (smallest == 0 || bulk_modulus < smallest) smallest = bulk_modulus;
+    }
+    if (smallest > 0) return smallest;
     return fluid.density * fluid.sound_speed * fluid.sound_speed;
   }
 
@@ -191,6 +219,34 @@ struct Case {
     if (k > 0) one.drop = more_drops[k - 1];
     one.more_drops.clear();
     return one;
+  }
+
+  std::size_t solid_count() const { return 1 + more_solids.size(); }
+  const Solid& solid_at(std::size_t k) const { return k == 0 ? solid : more_solids[k - 1]; }
+  /// As if solid k = 0, 1, ... were the only one.
+  Case with_solid(std::size_t k) const {
+    Case one = *this;
+    one.solid = solid_at(k);
+    one.more_solids.clear();
+    return one;
+  }
+  /// The first that is, or the first of all.
+  const Solid& first_elastic_solid() const {
+    for (std::size_t k = 0; k < solid_count(); ++k)
+      if (solid_at(k).is_elastic()) return solid_at(k);
+    return solid;
+  }
+  bool has_solid() const {
+    return any_solid([](const Solid& one) { return one.kind != SolidKind::none; });
+  }
+  bool has_elastic_solid() const {
+    return any_solid([](const Solid& one) { return one.is_elastic(); });
+  }
+  template <class F>
+  bool any_solid(F&& f) const {
+    for (std::size_t k = 0; k < solid_count(); ++k)
+      if (f(solid_at(k))) return true;
+    return false;
   }
 };
 

@@ -52,21 +52,25 @@ class CaseReader {
     mistakes_.push_back({no_line, fmt::format("--set {}: {}", printable(override_text), message)});
   }
 
-  void take_section(const TomlNode& section, std::size_t drop = 0);
-  void take_drops(const TomlNode& array);
+  void take_section(const TomlNode& section, std::size_t index = 0);
+  void take_several(const TomlNode& array);
   void store_values();
-  void store_given(const Parameter& parameter, std::size_t drop, Case& values);
+  void store_given(const Parameter& parameter, Which which, Case& values);
   void apply_presets();
   void report_missing(const Parameter& parameter);
   void find_contradictions();
-  std::string located(const Finding& finding, std::size_t drop) const;
-  std::string origins(const Finding& finding, std::size_t drop) const;
+  std::vector<std::string> find_doubts() const;
+  std::string located(const Finding& finding, Which which) const;
+  std::string origins(const Finding& finding, Which which) const;
+  std::size_t count_of(std::string_view section) const {
+    return section == "drop" ? drop_count_ : section == "solid" ? solid_count_ : 1;
+  }
 
   std::string source_name_;
   std::map<std::string, Given, std::less<>> given_;
   std::map<std::string, TomlNode, std::less<>> section_headers_;
   std::set<std::string, std::less<>> unusable_;
-  std::size_t drop_count_ = 1;
+  std::size_t drop_count_ = 1, solid_count_ = 1;
   std::vector<Mistake> mistakes_;
   Case values_;
 };
@@ -90,8 +94,8 @@ void CaseReader::take_file(const TomlNode& root) {
     } else if (is_section(member.name)) {
       if (member.kind == TomlNode::Kind::table) {
         take_section(member);
-      } else if (member.name == "drop" && is_array_of_tables(member)) {
-        take_drops(member);
+      } else if (may_repeat(member.name) && is_array_of_tables(member)) {
+        take_several(member);
       } else {
         mistake_in_file(member,
                         fmt::format("{0} is a section, not a key: write [{0}] and its keys below", member.name));
@@ -104,36 +108,37 @@ void CaseReader::take_file(const TomlNode& root) {
   }
 }
 
-void CaseReader::take_section(const TomlNode& section, std::size_t drop) {
+void CaseReader::take_section(const TomlNode& section, std::size_t index) {
   section_headers_[section.name] = section;
   for (const TomlNode& member : section.members) {
     const std::string key = section.name + "." + member.name;
     if (find_parameter(key) != nullptr) {
-      given_[key_of_drop(key, drop)] = {member, ""};
+      given_[key_of(key, {section.name, index})] = {member, ""};
     } else {
       mistake_in_file(member, unknown_key_message(section.name, member.name));
     }
   }
 }
 
-void CaseReader::take_drops(const TomlNode& array) {
-  drop_count_ = array.elements.size();
-  for (std::size_t k = 0; k < drop_count_; ++k) {
-    TomlNode drop = array.elements[k];
-    drop.name = "drop";
-    take_section(drop, k);
+void CaseReader::take_several(const TomlNode& array) {
+  (array.name == "drop" ? drop_count_ : solid_count_) = array.elements.size();
+  for (std::size_t k = 0; k < array.elements.size(); ++k) {
+    TomlNode one = array.elements[k];
+    one.name = array.name;
+    take_section(one, k);
   }
 }
 
 void CaseReader::take_overrides(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
     Override parsed = parse_override(text);
-    if (parsed.mistake.empty() && parsed.drop >= drop_count_) {
-      mistake_in_override(
-          text, fmt::format("the case has {} drop{}; each further one is a section [[drop]] of its file", drop_count_,
-                            drop_count_ == 1 ? "" : "s"));
+    const std::string section = parsed.key.substr(0, parsed.key.find('.'));
+    if (parsed.mistake.empty() && parsed.index >= count_of(section)) {
+      mistake_in_override(text,
+                          fmt::format("the case has {0} {1}{2}; each further one is a section [[{1}]] of its file",
+                                      count_of(section), section, count_of(section) == 1 ? "" : "s"));
     } else if (parsed.mistake.empty()) {
-      given_[key_of_drop(parsed.key, parsed.drop)] = {std::move(parsed.value), text};
+      given_[key_of(parsed.key, {section, parsed.index})] = {std::move(parsed.value), text};
     } else {
       mistake_in_override(text, parsed.mistake);
     }
@@ -148,9 +153,9 @@ void CaseReader::report_missing(const Parameter& parameter) {
                                      parameter.description, allowed_text(parameter), parameter.unit));
 }
 
-void CaseReader::store_given(const Parameter& parameter, std::size_t drop, Case& values) {
+void CaseReader::store_given(const Parameter& parameter, Which which, Case& values) {
   store_default(parameter, values);
-  const std::string key = key_of_drop(parameter.key, drop);
+  const std::string key = key_of(parameter.key, which);
   const auto found = given_.find(key);
   if (found == given_.end()) {
     if (!is_required(parameter)) return;
@@ -158,7 +163,7 @@ void CaseReader::store_given(const Parameter& parameter, std::size_t drop, Case&
     report_missing(parameter);
   } else if (auto mistake = store(parameter, found->second.node, values)) {
     unusable_.insert(key);
-    if (drop > 0) mistake->replace(0, parameter.key.size(), key);
+    if (which.index > 0) mistake->replace(0, parameter.key.size(), key);
     if (found->second.override_text.empty()) {
       mistake_in_file(found->second.node, *mistake);
     } else {
@@ -168,21 +173,27 @@ void CaseReader::store_given(const Parameter& parameter, std::size_t drop, Case&
 }
 
 void CaseReader::store_values() {
-  for (const Parameter& parameter : parameter_table()) store_given(parameter, 0, values_);
+  for (const Parameter& parameter : parameter_table()) store_given(parameter, {}, values_);
   for (std::size_t k = 1; k < drop_count_; ++k) {
     Case scratch;
     for (const Parameter& parameter : parameter_table())
-      if (parameter.section() == "drop") store_given(parameter, k, scratch);
+      if (parameter.section() == "drop") store_given(parameter, {"drop", k}, scratch);
     values_.more_drops.push_back(scratch.drop);
+  }
+  for (std::size_t k = 1; k < solid_count_; ++k) {
+    Case scratch;
+    for (const Parameter& parameter : parameter_table())
+      if (parameter.section() == "solid") store_given(parameter, {"solid", k}, scratch);
+    values_.more_solids.push_back(scratch.solid);
   }
 }
 
 // " (drop.diameter: line 7; resolution.spacing: --set; drop.shape: not given)"
-std::string CaseReader::origins(const Finding& finding, std::size_t drop) const {
+std::string CaseReader::origins(const Finding& finding, Which which) const {
   constexpr std::size_t few = 4;
   std::string text;
   for (const std::string_view parameter : finding.keys) {
-    const std::string key = key_of_drop(parameter, drop);
+    const std::string key = key_of(parameter, which);
     const auto found = given_.find(key);
     std::string origin = "not given";
     if (found != given_.end()) {
@@ -196,11 +207,11 @@ std::string CaseReader::origins(const Finding& finding, std::size_t drop) const 
 }
 
 // At the line of the first parameter involved that the case gives.
-std::string CaseReader::located(const Finding& finding, std::size_t drop) const {
-  const std::string which = drop > 0 ? fmt::format("drop {}: ", drop + 1) : "";
-  const std::string message = which + finding.message + origins(finding, drop);
+std::string CaseReader::located(const Finding& finding, Which which) const {
+  const std::string name = which.index > 0 ? fmt::format("{} {}: ", which.section, which.index + 1) : "";
+  const std::string message = name + finding.message + origins(finding, which);
   for (const std::string_view key : finding.keys) {
-    const auto found = given_.find(key_of_drop(key, drop));
+    const auto found = given_.find(key_of(key, which));
     if (found == given_.end()) continue;
     const Given& given = found->second;
     if (!given.override_text.empty()) return fmt::format("--set {}: {}", printable(given.override_text), message);
@@ -209,27 +220,54 @@ std::string CaseReader::located(const Finding& finding, std::size_t drop) const 
   return mistake_at(source_name_, 1, "", message);
 }
 
-bool concerns_drop(const Finding& finding) {
-  return std::any_of(finding.keys.begin(), finding.keys.end(),
-                     [](std::string_view key) { return key.starts_with("drop."); });
+bool concerns(const Finding& finding, std::string_view section) {
+  return std::any_of(finding.keys.begin(), finding.keys.end(), [&](std::string_view key) {
+    return key.starts_with(section) && key.substr(section.size()).starts_with('.');
+  });
 }
 
-// Of the first drop all that is wrong, of every further one what has to do with it.
+// Of the first drop and solid all that is wrong, of every further one what has to do with it.
 void CaseReader::find_contradictions() {
-  for (std::size_t k = 0; k < drop_count_; ++k) {
-    const auto is_usable = [&](std::string_view key) { return !unusable_.contains(key_of_drop(key, k)); };
-    for (const Finding& finding : contradictions(k == 0 ? values_ : values_.with_drop(k), is_usable))
-      if (k == 0 || concerns_drop(finding)) mistakes_.push_back({no_line, located(finding, k)});
-  }
+  const auto find = [&](const Case& values, Which which) {
+    const auto is_usable = [&](std::string_view key) { return !unusable_.contains(key_of(key, which)); };
+    for (const Finding& finding : contradictions(values, is_usable))
+      if (which.index == 0 || concerns(finding, which.section)) mistakes_.push_back({no_line, located(finding, which)});
+  };
+  find(values_, {});
+  for (std::size_t k = 1; k < drop_count_; ++k) find(values_.with_drop(k), {"drop", k});
+  for (std::size_t k = 1; k < solid_count_; ++k) find(values_.with_solid(k), {"solid", k});
+}
+
+std::vector<std::string> CaseReader::find_doubts() const {
+  std::vector<std::string> warnings;
+  const auto find = [&](const Case& values, Which which) {
+    for (const Finding& doubt : doubts(values))
+      if (which.index == 0 || concerns(doubt, which.section)) warnings.push_back(located(doubt, which));
+  };
+  find(values_.more_drops.empty() ? values_ : values_.with_drop(0), {});
+  for (std::size_t k = 1; k < drop_count_; ++k) find(values_.with_drop(k), {"drop", k});
+  for (std::size_t k = 1; k < solid_count_; ++k) find(values_.with_solid(k), {"solid", k});
+  return warnings;
 }
 
 void CaseReader::apply_presets() {
   const Case plain = values_;
   for (const Preset& preset : mode_presets()) {
-    if (values_.mode < preset.mode || given_.contains(preset.key) || !preset.applies(plain)) continue;
+    if (values_.mode < preset.mode) continue;
+    const Parameter& parameter = *find_parameter(preset.key);
     const TomlNode value = parse_toml("value = " + std::string(preset.value), "mode").members.front();
-    [[maybe_unused]] const auto mistake = store(*find_parameter(preset.key), value, values_);
-    assert(!mistake);
+    if (!given_.contains(preset.key) && preset.applies(plain)) {
+      [[maybe_unused]] const auto mistake = store(parameter, value, values_);
+      assert(!mistake);
+    }
+    for (std::size_t k = 1; parameter.section() == "solid" && k < solid_count_; ++k) {
+      Case one = plain.with_solid(k);
+      if (given_.contains(key_of(preset.key, {"solid", k})) || !preset.applies(one)) continue;
+      one.solid = values_.more_solids[k - 1];
+      [[maybe_unused]] const auto mistake = store(parameter, value, one);
+      assert(!mistake);
+      values_.more_solids[k - 1] = one.solid;
+    }
   }
 }
 
@@ -245,11 +283,7 @@ ParsedCase CaseReader::finish() {
     for (Mistake& mistake : mistakes_) texts.push_back(std::move(mistake.text));
     throw CaseError(std::move(texts));
   }
-  ParsedCase parsed{values_, {}};
-  for (std::size_t k = 0; k < drop_count_; ++k)
-    for (const Finding& doubt : doubts(values_.with_drop(k)))
-      if (k == 0 || concerns_drop(doubt)) parsed.warnings.push_back(located(doubt, k));
-  return parsed;
+  return {values_, find_doubts()};
 }
 
 }  // namespace

@@ -9,7 +9,9 @@
 #include "config/check.hpp"
 #include "config/derived_defaults.hpp"
 #include "config/key_suggestion.hpp"
+#include "config/polygon.hpp"
 #include "config/several_drops.hpp"
+#include "config/solid_checks.hpp"
 #include "config/utf8.hpp"
 
 namespace sphdrop {
@@ -53,9 +55,7 @@ Verdict several_drops_not_liquid(const Case& values) {
 }
 
 Verdict height_of_a_drop_above_the_solid(const Case& values) {
-  if (values.drop.centre_y == 0 || values.solid.kind == SolidKind::none ||
-      values.drop.placement == DropPlacement::centre)
-    return {};
+  if (values.drop.centre_y == 0 || !values.has_solid() || values.drop.placement == DropPlacement::centre) return {};
   return "drop.centre_y needs drop.placement = \"centre\" where there is a solid: otherwise drop.gap says how high "
          "above "
          "it the drop is";
@@ -136,12 +136,12 @@ Verdict drop_too_small(const Case& values) {
 }
 
 Verdict beam_without_length(const Case& values) {
-  if (!has_beam(values) || !std::isnan(values.solid.length)) return {};
+  if (!values.solid.is_straight_beam() || !std::isnan(values.solid.length)) return {};
   return "solid.length is missing: a beam needs its free length, in m";
 }
 
 Verdict rows_not_whole(const Case& values) {
-  if (!has_beam(values)) return {};
+  if (!values.solid.is_straight_beam()) return {};
   const double rows = rows_across(values);
   const double H = values.solid.thickness;
   if (rows < 2 - whole_number_tolerance) {
@@ -158,7 +158,7 @@ Verdict rows_not_whole(const Case& values) {
 }
 
 Verdict length_not_whole(const Case& values) {
-  if (!has_beam(values) || std::isnan(values.solid.length)) return {};
+  if (!values.solid.is_straight_beam() || std::isnan(values.solid.length)) return {};
   const double columns = columns_along(values);
   const double d = values.resolution.spacing;
   if (columns < 4 * (1 - whole_number_tolerance)) {
@@ -174,7 +174,7 @@ Verdict length_not_whole(const Case& values) {
 
 // A strip thinner than the kernel's support would let the beam's particles see past it.
 Verdict clamp_thinner_than_support(const Case& values) {
-  if (!has_beam(values) || values.solid.clamp == Clamp::ideal) return {};
+  if (!values.solid.is_straight_beam() || values.solid.clamp == Clamp::ideal) return {};
   const double support = 2 * values.resolution.smoothing_ratio;  // in spacings
   if (static_cast<double>(values.solid.clamp_layers) < support * (1 - whole_number_tolerance)) {
     return fmt::format("solid.clamp_layers = {} is thinner than the kernel's support of {} spacings; take at least {}",
@@ -184,7 +184,8 @@ Verdict clamp_thinner_than_support(const Case& values) {
 }
 
 Verdict clamp_shorter_than_support(const Case& values) {
-  if (!has_beam(values) || rows_across(values) < 2 - whole_number_tolerance) return {};  // refused as too thin
+  if (!values.solid.is_straight_beam() || rows_across(values) < 2 - whole_number_tolerance)
+    return {};  // refused as too thin
   const double support = 2 * values.resolution.smoothing_ratio * values.resolution.spacing;
   if (values.solid.clamp_length < support * (1 - whole_number_tolerance)) {
     return fmt::format("solid.clamp_length = {} m is shorter than the kernel's support of {} m; take at least that",
@@ -202,7 +203,7 @@ Verdict tip_velocity_of_another_solid(const Case& values) {
 
 Verdict damping_of_another_solid(const Case& values) {
   if ((values.solid.damping_rate == 0 && values.solid.damping_ratio == 0 && values.solid.viscous_time == 0) ||
-      has_beam(values))
+      values.solid.is_elastic())
     return {};
   const char* key = values.solid.damping_rate > 0    ? "solid.damping_rate"
                     : values.solid.damping_ratio > 0 ? "solid.damping_ratio"
@@ -221,7 +222,7 @@ Verdict viscosity_of_another_formulation(const Case& values) {
 // Far beyond any use: a velocity would change its sign from step to step.
 Verdict damping_within_a_step(const Case& values) {
   const StepBound bound = largest_step(values);
-  if (!has_beam(values) || values.solid.damping_rate * bound.step <= 1) return {};
+  if (!values.solid.is_elastic() || values.solid.damping_rate * bound.step <= 1) return {};
   return fmt::format(
       "solid.damping_rate = {} 1/s would stop the beam within one time step of {:.4g} s, the bound of {} at a CFL "
       "factor of 1; take at most {:.4g} 1/s; 2 omega is enough to bring a mode of angular frequency omega to rest",
@@ -250,7 +251,7 @@ Verdict substeps_of_another_solid(const Case& values) {
 Verdict contact_angle_without_surface(const Case& values) {
   if (!values.is_wetting()) return {};
   const char* lacks = !values.drop.is_liquid()                                  ? "there is no liquid drop"
-                      : values.solid.kind == SolidKind::none                    ? "there is no solid to wet"
+                      : !values.has_solid()                                     ? "there is no solid to wet"
                       : values.surface_tension.form == SurfaceTensionForm::none ? "there is no surface tension"
                       : values.surface_tension.coefficient == 0                 ? "the surface tension is zero"
                                                                                 : nullptr;
@@ -270,12 +271,15 @@ Verdict contact_stiffer_than_a_step(const Case& values) {
 
 // Twice this is where the leap-frog would be unstable.
 Verdict contact_springs_within_a_step(const Case& values) {
-  if (values.contact.stiffness_form != ContactStiffness::fixed || !has_drop(values) ||
-      values.solid.kind == SolidKind::none)
-    return {};
+  if (values.contact.stiffness_form != ContactStiffness::fixed || !has_drop(values) || !values.has_solid()) return {};
   const double d = values.resolution.spacing;
   double inverse_mass = 1 / (values.drop.density * d * d);
-  if (has_beam(values)) inverse_mass += 1 / (values.solid.density * d * d);
+  // What is lightest at the surface: there a polygon's particles have half a square at least, and share by
+  // extrapolation.
+  inverse_mass += largest_over_solids(values, [&](const Case& one) {
+    if (!one.solid.is_elastic()) return 0.0;
+    return (one.solid.kind == SolidKind::polygon ? 4 : 1) / (one.solid.density * d * d);
+  });
   const double rate = values.contact_modulus() * inverse_mass;
   const double step = values.time.step > 0 ? values.time.step : sound_step(values);
   if (values.contact.stiffness * rate * step * step <= 1) return {};
@@ -406,16 +410,23 @@ double particle_count(const Case& values) {
   const double d = values.resolution.spacing;
   double area = drop_area(values.drop);
   for (const Case::Drop& drop : values.more_drops) area += drop_area(drop);
-  if (has_beam(values)) {
-    area += (values.solid.length + 2 * values.solid.clamp_length) * values.solid.thickness;
-    area += 4 * values.solid.clamp_length * static_cast<double>(values.solid.clamp_layers) * d;
+  for (std::size_t k = 0; k < values.solid_count(); ++k) {
+    const Case::Solid& solid = values.solid_at(k);
+    if (solid.is_straight_beam()) {
+      area += (solid.length + 2 * solid.clamp_length) * solid.thickness;
+      area += 4 * solid.clamp_length * static_cast<double>(solid.clamp_layers) * d;
+    }
+    if (solid.kind == SolidKind::polygon) area += area_of(solid.polygon);
+    if (solid.kind == SolidKind::rigid_wall) area += solid.length * d;
+    if (solid.kind == SolidKind::obstacle) area += perimeter_of(solid.polygon) * d;
   }
-  if (values.solid.kind == SolidKind::rigid_wall) area += values.solid.length * d;
   return area / (d * d);
 }
 
 std::vector<Finding> contradictions(const Case& values, const IsUsable& is_usable) {
-  return run_checks(contradiction_checks(), values, is_usable);
+  std::vector<Finding> findings = run_checks(contradiction_checks(), values, is_usable);
+  for (Finding& finding : run_checks(solid_contradictions(), values, is_usable)) findings.push_back(std::move(finding));
+  return findings;
 }
 
 }  // namespace sphdrop

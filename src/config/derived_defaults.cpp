@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "config/polygon.hpp"
 #include "config/several_drops.hpp"
 
 namespace sphdrop {
@@ -17,6 +18,7 @@ double speed(double x, double y) {
 
 // c_s = sqrt(K/rho).
 double beam_sound_speed(const Case& values) {
+  if (!values.solid.is_elastic()) return 0;
   const double bulk_modulus = values.solid.youngs_modulus / (3 * (1 - 2 * values.solid.poisson_ratio));
   return std::sqrt(bulk_modulus / values.solid.density);
 }
@@ -26,7 +28,8 @@ double beam_sound_speed(const Case& values) {
 double default_centre(const Case& values) {
   if (values.solid.kind == SolidKind::cantilever) return values.solid.length - values.drop.diameter / 2;
   if (values.solid.kind == SolidKind::fixed_fixed_beam) return values.solid.length / 2;
-  return 0;
+  const Extent extent = extent_of(values.solid.polygon);
+  return values.solid.has_polygon() ? 0.5 * (extent.low.x + extent.high.x) : 0;
 }
 
 // Of the drop's particle farthest from its centre.
@@ -37,11 +40,16 @@ double largest_radius(const Case& values) {
   return values.drop.shape == DropShape::square ? std::numbers::sqrt2 * half_width : half_width;
 }
 
+double longest_solid(const Case& values) {
+  return largest_over_solids(
+      values, [](const Case& one) { return one.solid.kind == SolidKind::none ? 0.0 : one.solid.length; });
+}
+
 // What gravity adds until time.end, m/s. A beam is held: by itself it falls no farther than its length.
 double speed_by_gravity(const Case& values) {
   const double g = speed(values.gravity.x, values.gravity.y);
   const double free_fall = g * values.time.end;
-  return has_beam(values) && !has_drop(values) ? std::min(free_fall, std::sqrt(2 * g * values.solid.length))
+  return has_beam(values) && !has_drop(values) ? std::min(free_fall, std::sqrt(2 * g * longest_solid(values)))
                                                : free_fall;
 }
 
@@ -53,10 +61,10 @@ double default_domain_margin(const Case& all) {
     if (has_drop(values))
       body =
           std::max(body, values.drop.shape == DropShape::ellipse ? 2 * largest_radius(values) : values.drop.diameter);
-    if (values.solid.kind != SolidKind::none) body = std::max(body, values.solid.length);
+    body = std::max(body, longest_solid(values));
     const double flight = 2 * expected_speed(values) * values.time.end;
     const bool is_held = has_beam(values) && !has_drop(values);
-    return (is_held ? std::min(flight, 2 * values.solid.length) : flight) + body;
+    return (is_held ? std::min(flight, 2 * longest_solid(values)) : flight) + body;
   });
 }
 
@@ -64,7 +72,8 @@ double default_domain_margin(const Case& all) {
 double sound_step(const Case& values, double factor, double liquid_factor) {
   const double h = values.resolution.smoothing_ratio * values.resolution.spacing, u = expected_speed(values);
   if (values.time.solid_substeps <= 1) return factor * h / (largest_sound_speed(values) + u);
-  return std::min(static_cast<double>(values.time.solid_substeps) * factor * h / (beam_sound_speed(values) + u),
+  return std::min(static_cast<double>(values.time.solid_substeps) * factor * h /
+                      (largest_over_solids(values, beam_sound_speed) + u),
                   liquid_factor * h / (values.fluid.sound_speed + u));
 }
 
@@ -75,7 +84,8 @@ std::int64_t default_substeps(const Case& values) {
   constexpr double most = 3;
   if (!can_take_substeps(values)) return 1;
   const double factor = std::isnan(values.time.sound_cfl) ? cfl_of_substeps : values.time.sound_cfl;
-  const double ratio = values.time.liquid_sound_cfl / values.fluid.sound_speed * beam_sound_speed(values) / factor;
+  const double ratio =
+      values.time.liquid_sound_cfl / values.fluid.sound_speed * largest_over_solids(values, beam_sound_speed) / factor;
   return static_cast<std::int64_t>(std::clamp(std::round(ratio), 1.0, most));
 }
 
@@ -97,7 +107,21 @@ void fill_drop(Case& one, const Case& values) {
   const double d = values.resolution.spacing;
   fill(one.drop.density, values.fluid.density);
   fill(one.drop.gap, std::max(0.0, values.contact.distance_ratio - 1) * d + 0.1 * d);
-  fill(one.drop.centre_x, default_centre(one));
+  fill(one.drop.centre_x, default_centre(one) + one.solid.origin_x);
+}
+
+void fill_solid(Case::Solid& solid, const Case& values) {
+  if (solid.formulation == SolidFormulation::automatic)
+    solid.formulation = values.mode == Mode::paper ? SolidFormulation::hypoelastic : SolidFormulation::cells;
+  if (solid.has_polygon()) {
+    const Extent extent = extent_of(solid.polygon);
+    fill(solid.length, std::max(extent.high.x - extent.low.x, extent.high.y - extent.low.y));
+    solid.clamp = Clamp::ideal;  // strips follow straight sides alone
+  } else if (std::isnan(solid.length) && !solid.is_elastic()) {
+    const double d = values.resolution.spacing;
+    solid.length = std::max(1.0, std::round(8 * values.drop.diameter / d)) * d;  // whole spacings
+  }
+  fill(solid.clamp_length, 2 * solid.thickness);
 }
 
 }  // namespace
@@ -107,7 +131,7 @@ bool has_drop(const Case& values) {
 }
 
 bool has_beam(const Case& values) {
-  return values.solid.kind == SolidKind::cantilever || values.solid.kind == SolidKind::fixed_fixed_beam;
+  return values.has_elastic_solid();
 }
 
 double expected_speed(const Case& all) {
@@ -121,7 +145,9 @@ double expected_speed(const Case& all) {
             fastest, std::sqrt(2 * values.surface_tension.coefficient / (values.fluid.density * values.drop.diameter)));
       }
     }
-    if (has_beam(values)) fastest = std::max(fastest, std::abs(values.solid.initial_tip_velocity));
+    for (std::size_t k = 0; k < values.solid_count(); ++k)
+      if (values.solid_at(k).is_elastic())
+        fastest = std::max(fastest, std::abs(values.solid_at(k).initial_tip_velocity));
     return fastest + speed_by_gravity(values);
   });
 }
@@ -129,7 +155,7 @@ double expected_speed(const Case& all) {
 double largest_sound_speed(const Case& values) {
   if (!has_beam(values)) return has_drop(values) ? values.fluid.sound_speed : 0;
   const double liquid = values.drop.is_liquid() ? values.fluid.sound_speed : 0;
-  return std::max(liquid, beam_sound_speed(values));
+  return std::max(liquid, largest_over_solids(values, beam_sound_speed));
 }
 
 double sound_step(const Case& values) {
@@ -163,20 +189,15 @@ void fill_derived_defaults(Case& values, const std::string& source_name) {
   if (values.name.empty()) values.name = std::filesystem::path(source_name).stem().string();
   if (values.output.directory.empty()) values.output.directory = "results/" + values.name;
 
-  if (values.solid.formulation == SolidFormulation::automatic)
-    values.solid.formulation = values.mode == Mode::paper ? SolidFormulation::hypoelastic : SolidFormulation::cells;
+  fill_solid(values.solid, values);
+  for (Case::Solid& solid : values.more_solids) fill_solid(solid, values);
 
-  const double d = values.resolution.spacing;
   fill(values.time.step, 0);
   if (values.time.solid_substeps == 0) values.time.solid_substeps = default_substeps(values);
   fill(values.time.sound_cfl, default_sound_cfl(values));
   const bool springs_are_fixed = values.contact.stiffness_form == ContactStiffness::fixed;
   fill(values.contact.stiffness, springs_are_fixed ? 0.3 : 0.1);
   fill(values.contact.overlap_limit, springs_are_fixed ? 0.5 : 0.2);
-  if (std::isnan(values.solid.length) && !has_beam(values)) {
-    values.solid.length = std::max(1.0, std::round(8 * values.drop.diameter / d)) * d;  // whole spacings
-  }
-  fill(values.solid.clamp_length, 2 * values.solid.thickness);
   fill_drop(values, values);
   for (Case::Drop& drop : values.more_drops) {
     Case one = values;

@@ -6,23 +6,24 @@
 #include "config/check.hpp"
 #include "config/consistency.hpp"
 #include "config/derived_defaults.hpp"
+#include "config/solid_checks.hpp"
 
 namespace sphdrop {
 namespace {
 
 bool is_hypoelastic(const Case& values) {
-  return has_beam(values) && values.solid.formulation == SolidFormulation::hypoelastic;
+  return values.solid.is_elastic() && values.solid.formulation == SolidFormulation::hypoelastic;
 }
 
 Verdict few_rows(const Case& values) {
   const double rows = std::round(rows_across(values));
-  if (!has_beam(values) || rows >= 4) return {};
+  if (!values.solid.is_straight_beam() || rows >= 4) return {};
   return fmt::format("the beam has {} rows across its thickness; bending needs at least 4, better 10", rows);
 }
 
 Verdict odd_rows(const Case& values) {
   const double rows = std::round(rows_across(values));
-  if (!is_hypoelastic(values) || std::fmod(rows, 2) == 0) return {};
+  if (!is_hypoelastic(values) || !values.solid.is_straight_beam() || std::fmod(rows, 2) == 0) return {};
   return fmt::format(
       "the beam has {} rows, an odd number: it will be 2 to 3 times too stiff. Even ones are {} rows "
       "(resolution.spacing = {:.10g} m) and {} rows ({:.10g} m)",
@@ -45,7 +46,7 @@ Verdict unstable_artificial_stress(const Case& values) {
 
 // method.md, 4: cells are stable to 0.55 on h/c_s.
 Verdict long_step_of_cells(const Case& values) {
-  const bool is_cells = has_beam(values) && values.solid.formulation == SolidFormulation::cells;
+  const bool is_cells = values.solid.is_elastic() && values.solid.formulation == SolidFormulation::cells;
   if (!is_cells || values.time.step > 0 || values.time.sound_cfl <= 0.5) return {};
   return fmt::format(
       "time.sound_cfl = {} is more than a beam of cells stands where its sound sets the step; take 0.5 or less",
@@ -143,7 +144,7 @@ Verdict narrow_wendland(const Case& values) {
 }
 
 Verdict stubby_beam(const Case& values) {
-  if (!has_beam(values) || values.solid.length >= 4 * values.solid.thickness) return {};
+  if (!values.solid.is_straight_beam() || values.solid.length >= 4 * values.solid.thickness) return {};
   return fmt::format("solid.length = {} m is less than 4 thicknesses of {} m: beam theory does not describe it",
                      values.solid.length, values.solid.thickness);
 }
@@ -179,7 +180,10 @@ const std::vector<Check>& doubt_checks() {
 }  // namespace
 
 std::vector<Finding> doubts(const Case& values) {
-  return run_checks(doubt_checks(), values, [](std::string_view) { return true; });
+  const auto all = [](std::string_view) { return true; };
+  std::vector<Finding> findings = run_checks(doubt_checks(), values, all);
+  for (Finding& finding : run_checks(solid_doubts(), values, all)) findings.push_back(std::move(finding));
+  return findings;
 }
 
 }  // namespace sphdrop

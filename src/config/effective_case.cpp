@@ -31,12 +31,15 @@ std::string effective_case_text(const Case& values) {
   for (const Parameter& parameter : parameter_table())
     if (parameter.section().empty()) append_parameter(text, parameter, values);
   for (const std::string_view section : section_names()) {
-    if (section != "drop" || values.more_drops.empty()) {
+    if (section == "drop" && !values.more_drops.empty()) {
+      for (std::size_t k = 0; k < values.drop_count(); ++k)
+        append_section(text, section, "[[drop]]", values.with_drop(k));
+    } else if (section == "solid" && !values.more_solids.empty()) {
+      for (std::size_t k = 0; k < values.solid_count(); ++k)
+        append_section(text, section, "[[solid]]", values.with_solid(k));
+    } else {
       append_section(text, section, fmt::format("[{}]", section), values);
-      continue;
     }
-    for (std::size_t k = 0; k < values.drop_count(); ++k)
-      append_section(text, section, "[[drop]]", values.with_drop(k));
   }
   return text;
 }

@@ -20,8 +20,12 @@ bool has_surface_alone(const Case& values) {
 
 // The clamp's edge is exact for cells alone.
 bool has_beam_of_cells(const Case& values) {
-  return has_beam(values) && (values.solid.formulation == SolidFormulation::automatic ||
-                              values.solid.formulation == SolidFormulation::cells);
+  return values.solid.is_elastic() && (values.solid.formulation == SolidFormulation::automatic ||
+                                       values.solid.formulation == SolidFormulation::cells);
+}
+
+bool is_beam(const Case& values) {
+  return values.solid.is_elastic();
 }
 
 bool has_liquid(const Case& values) {
@@ -29,7 +33,7 @@ bool has_liquid(const Case& values) {
 }
 
 bool has_contact(const Case& values) {
-  return has_drop(values) && values.solid.kind != SolidKind::none;
+  return has_drop(values) && values.has_solid();
 }
 
 constexpr Preset presets[] = {
@@ -37,7 +41,7 @@ constexpr Preset presets[] = {
     {Mode::modern, "fluid.artificial_viscosity_alpha", "0.0", "of one drop without a beam", has_one_drop_without_beam},
     {Mode::modern, "fluid.gauge_pressure", "\"on\"", "of one drop without a beam", has_surface_alone},
     {Mode::modern, "fluid.shifting", "\"on\"", "of one drop without a beam", has_surface_alone},
-    {Mode::modern, "solid.formulation", "\"cells\"", "", has_beam},
+    {Mode::modern, "solid.formulation", "\"cells\"", "", is_beam},
     {Mode::modern, "solid.clamp", "\"ideal\"", "", has_beam_of_cells},
     {Mode::modern, "contact.stiffness_form", "\"fixed\"", "", has_contact},
     {Mode::fast, "time.solid_substeps", "0", "", has_beam},

@@ -8,6 +8,7 @@
 #include "config/key_suggestion.hpp"
 #include "config/parameter_table.hpp"
 #include "config/quantity.hpp"
+#include "config/several_drops.hpp"
 #include "config/utf8.hpp"
 
 namespace sphdrop {
@@ -49,16 +50,17 @@ std::string unknown_key(const std::string& key) {
 }
 
 // "drop[2].diameter" is drop.diameter of the second drop; what is not quite so remains, as an unknown key.
-void take_drop_number(Override& parsed) {
-  constexpr std::string_view begin = "drop[";
-  const std::size_t end = parsed.key.find("].");
-  if (!parsed.key.starts_with(begin) || end == std::string::npos) return;
-  const std::string digits = parsed.key.substr(begin.size(), end - begin.size());
+void take_index(Override& parsed) {
+  const std::size_t begin = parsed.key.find('['), end = parsed.key.find("].");
+  if (begin == std::string::npos || end == std::string::npos || end < begin) return;
+  const std::string section = parsed.key.substr(0, begin);
+  if (!may_repeat(section)) return;
+  const std::string digits = parsed.key.substr(begin + 1, end - begin - 1);
   const bool is_number =
       !digits.empty() && digits.size() < 7 && digits.find_first_not_of("0123456789") == std::string::npos;
   if (!is_number || std::stoi(digits) < 1) return;
-  parsed.drop = static_cast<std::size_t>(std::stoi(digits)) - 1;
-  parsed.key = "drop" + parsed.key.substr(end + 1);
+  parsed.index = static_cast<std::size_t>(std::stoi(digits)) - 1;
+  parsed.key = section + parsed.key.substr(end + 1);
 }
 
 }  // namespace
@@ -71,7 +73,7 @@ Override parse_override(const std::string& text) {
     return parsed;
   }
   parsed.key = trimmed(text.substr(0, equals));
-  take_drop_number(parsed);
+  take_index(parsed);
   const std::string value = trimmed(text.substr(equals + 1));
   const Parameter* parameter = find_parameter(parsed.key);
   if (parameter == nullptr) {

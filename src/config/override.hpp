@@ -9,8 +9,8 @@
 namespace sphdrop {
 
 struct Override {
-  std::string key;       ///< "drop.diameter" for "drop[2].diameter" too
-  std::size_t drop = 0;  ///< which drop: 0, 1, ...
+  std::string key;        ///< "drop.diameter" for "drop[2].diameter" too
+  std::size_t index = 0;  ///< which of several drops or solids: 0, 1, ...
   TomlNode value;
   std::string mistake;  ///< "" if the key is known and the value readable; its type and range are not checked here
 };

@@ -156,6 +156,44 @@ struct Storing {
     return "";
   }
 
+  // What is wrong with it, or "".
+  std::string take_point(const TomlNode& point, const Range& range, Points& points) const {
+    if (point.kind != TomlNode::Kind::array || point.elements.size() != 2)
+      return fmt::format("must hold points, each [x, y], but point {} is {}", points.size() + 1, what_it_is(point));
+    const Taken<double> x = take_number_within(point.elements[0], range, parameter.unit);
+    if (!x.value) return fmt::format("(x of point {}) ", points.size() + 1) + x.mistake + allowed();
+    const Taken<double> y = take_number_within(point.elements[1], range, parameter.unit);
+    if (!y.value) return fmt::format("(y of point {}) ", points.size() + 1) + y.mistake + allowed();
+    points.push_back({*x.value, *y.value});
+    return "";
+  }
+
+  std::string operator()(const PointsParameter& parsed) const {
+    if (node.kind != TomlNode::Kind::array)
+      return fmt::format("must be an array of points, [[x, y], ...], but is {}", what_it_is(node));
+    Points points;
+    for (const TomlNode& element : node.elements)
+      if (std::string mistake = take_point(element, parsed.range, points); !mistake.empty()) return mistake;
+    parsed.member(values) = std::move(points);
+    return "";
+  }
+
+  std::string operator()(const RegionsParameter& parsed) const {
+    if (node.kind != TomlNode::Kind::array)
+      return fmt::format("must be an array of regions, [[[x, y], ...], ...], but is {}", what_it_is(node));
+    std::vector<Points> regions;
+    for (const TomlNode& region : node.elements) {
+      Points& points = regions.emplace_back();
+      const std::string which = fmt::format("(region {}) ", regions.size());
+      if (region.kind != TomlNode::Kind::array || region.elements.size() < 2)
+        return which + fmt::format("must be a list of at least two points, but is {}", what_it_is(region));
+      for (const TomlNode& element : region.elements)
+        if (std::string mistake = take_point(element, parsed.range, points); !mistake.empty()) return which + mistake;
+    }
+    parsed.member(values) = std::move(regions);
+    return "";
+  }
+
   std::string operator()(const WordParameter& word) const {
     if (node.kind != TomlNode::Kind::string) {
       return fmt::format("must be a word in quotes, but is {}; allowed: {}", what_it_is(node), words_text(word.words));
@@ -210,7 +248,9 @@ void store_default(const Parameter& parameter, Case& values) {
                           vector.y(values) = vector.fallback[1];
                         },
                         [&](const WordParameter& word) { word.set(values, word.fallback); },
-                        [&](const TextParameter& text) { text.member(values).clear(); }},
+                        [&](const TextParameter& text) { text.member(values).clear(); },
+                        [&](const PointsParameter& points) { points.member(values).clear(); },
+                        [&](const RegionsParameter& regions) { regions.member(values).clear(); }},
              parameter.value);
 }
 

@@ -34,6 +34,11 @@ constexpr WordParameter word(std::span<const std::string_view> words, Enumeratio
           static_cast<std::size_t>(fallback)};
 }
 
+template <auto Member>
+constexpr PointsParameter points(Range range, std::string_view none = "") {
+  return {[](Case& values) -> Points& { return values.solid.*Member; }, range, none};
+}
+
 constexpr Range positive(double upper) {
   return {0, false, upper, true};
 }
@@ -50,7 +55,8 @@ constexpr std::string_view shape_words[] = {"none", "round", "square", "ellipse"
 constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
 constexpr std::string_view placement_words[] = {"above_solid", "centre"};
 constexpr std::string_view material_words[] = {"liquid", "rigid"};
-constexpr std::string_view solid_words[] = {"none", "cantilever", "fixed_fixed_beam", "rigid_wall"};
+constexpr std::string_view solid_words[] = {"none",       "cantilever", "fixed_fixed_beam",
+                                            "rigid_wall", "polygon",    "obstacle"};
 constexpr std::string_view formulation_words[] = {"auto", "hypoelastic", "cells", "total_lagrangian"};
 constexpr std::string_view law_words[] = {"st_venant_kirchhoff", "neo_hookean"};
 constexpr std::string_view clamp_words[] = {"strips", "ideal"};
@@ -181,7 +187,9 @@ constexpr Parameter table[] = {
      "distance between the surfaces of drop and solid at the start"},
     {"drop.centre_x", "", "m",
      real<&C::drop, &C::Drop::centre_x>(
-         Automatic{"cantilever: length - diameter/2; fixed_fixed_beam: mid-span; else 0"}, either_sign(largest_length)),
+         Automatic{
+             "cantilever: length - diameter/2; fixed_fixed_beam: mid-span; polygon, obstacle: its middle; else 0"},
+         either_sign(largest_length)),
      "x of the drop's centre; 0 is the left clamp's edge, or the middle of a rigid wall"},
     {"drop.placement", "", "-", word<&C::drop, &C::Drop::placement>(placement_words, DropPlacement::above_solid),
      "above_solid = the gap above the solid's surface, centre = the centre at centre_y"},
@@ -204,10 +212,36 @@ constexpr Parameter table[] = {
      "so long before t = 0 a liquid drop is left to itself at rest, damped and without gravity, so that its particles "
      "settle; its velocity is given to it at t = 0"},
 
-    {"solid.kind", "", "-", word<&C::solid, &C::Solid::kind>(solid_words, SolidKind::none), "what the drop meets"},
+    {"solid.kind", "", "-", word<&C::solid, &C::Solid::kind>(solid_words, SolidKind::none),
+     "what the drop meets: polygon = an elastic body of any outline, obstacle = a rigid one. Each of several is a "
+     "section [[solid]]"},
+    {"solid.polygon", "", "m", points<&C::Solid::polygon>(either_sign(largest_length)),
+     "corners of a polygon or an obstacle in their order, either way round. The particles of a polygon stand on the "
+     "square lattice with corners at whole spacings; area and mass are the polygon's own"},
+    {"solid.clamps", "", "m",
+     RegionsParameter{[](C& c) -> std::vector<Points>& { return c.solid.clamps; }, either_sign(largest_length)},
+     "parts of the plane in which a polygon is held, each a list of points: two = opposite corners of a box, more = a "
+     "polygon"},
+    {"solid.lattice_direction", "", "-",
+     vector<&C::solid, &C::Solid::lattice_x, &C::Solid::lattice_y>({1, 0}, either_sign(1e6)),
+     "direction of the rows of a polygon's particles; best that of its long sides, where those are oblique"},
+    {"solid.pinned", "", "m", points<&C::Solid::pinned>(either_sign(largest_length)),
+     "places where an elastic solid is held in both directions, free to turn: its nearest particle is"},
+    {"solid.held_in_x", "", "m", points<&C::Solid::held_in_x>(either_sign(largest_length)),
+     "places where it is held in x alone, a roller"},
+    {"solid.held_in_y", "", "m", points<&C::Solid::held_in_y>(either_sign(largest_length)),
+     "places where it is held in y alone, a roller"},
+    {"solid.probe", "", "m",
+     points<&C::Solid::probe>(either_sign(largest_length),
+                              "the free end or mid-span of a beam; of a polygon the particle farthest from held ones"),
+     "places whose mean displacement is the deflection of an elastic solid"},
+    {"solid.origin", "", "m",
+     vector<&C::solid, &C::Solid::origin_x, &C::Solid::origin_y>({0, 0}, either_sign(largest_length)),
+     "by how much the whole solid is moved, with all the places given for it; the beam's or wall's own zero"},
     {"solid.length", "L", "m",
-     real<&C::solid, &C::Solid::length>(Automatic{"rigid_wall: 8 drop diameters; a beam must give it"},
-                                        positive(10 * largest_length)),
+     real<&C::solid, &C::Solid::length>(
+         Automatic{"rigid_wall: 8 drop diameters; polygon, obstacle: the longer extent; a beam must give it"},
+         positive(10 * largest_length)),
      "a beam's free length, from the clamp's edge or between the clamps' edges; a rigid wall's width"},
     {"solid.thickness", "H", "m", real<&C::solid, &C::Solid::thickness>(0.25e-3, positive(largest_length)),
      "the beam's thickness"},
@@ -239,7 +273,7 @@ constexpr Parameter table[] = {
      "artificial stress of a hypoelastic beam (Eq 20); the paper's 0.5 is unstable at h = 1.2 d"},
     {"solid.clamp", "", "-", word<&C::solid, &C::Solid::clamp>(clamp_words, Clamp::strips),
      "strips = the beam's end is free to move between two strips of held particles, as in the paper; ideal = its "
-     "particles in the clamp are held themselves"},
+     "particles in the clamp are held themselves, as those of a polygon always are"},
     {"solid.clamp_length", "", "m",
      real<&C::solid, &C::Solid::clamp_length>(Automatic{"2 thicknesses"}, positive(2 * largest_length)),
      "length of the beam in a clamp, and of the clamp's strips"},

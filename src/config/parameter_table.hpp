@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "config/case.hpp"
 
@@ -60,11 +61,23 @@ struct TextParameter {
   Automatic fallback;
 };
 
+struct PointsParameter {  ///< [[x, y], ...]; none by default
+  Points& (*member)(Case&);
+  Range range;                 ///< of either coordinate
+  std::string_view none = "";  ///< what no points mean
+};
+struct RegionsParameter {  ///< [[[x, y], ...], ...]; none by default
+  std::vector<Points>& (*member)(Case&);
+  Range range;  ///< of either coordinate
+};
+
 struct Parameter {
   std::string_view key;     ///< "section.name", or "name" outside all sections
   std::string_view symbol;  ///< the paper's; "" where it has none
   std::string_view unit;    ///< SI; "-" for pure numbers and words
-  std::variant<RealParameter, IntegerParameter, VectorParameter, WordParameter, TextParameter> value;
+  std::variant<RealParameter, IntegerParameter, VectorParameter, WordParameter, TextParameter, PointsParameter,
+               RegionsParameter>
+      value;
   std::string_view description;
 
   /// "" outside all sections.

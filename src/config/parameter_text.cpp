@@ -14,6 +14,24 @@ namespace {
 
 constexpr std::string_view automatic_word = "auto";
 
+// A line of a case must not become too long.
+constexpr std::size_t points_per_line = 8;
+
+std::string points_text(const Points& points) {
+  std::string text = "[";
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (k > 0) text += k % points_per_line == 0 ? ",\n  " : ", ";
+    text += fmt::format("[{}, {}]", number_text(points[k].x), number_text(points[k].y));
+  }
+  return text + "]";
+}
+
+std::string regions_text(const std::vector<Points>& regions) {
+  std::string text = "[";
+  for (std::size_t k = 0; k < regions.size(); ++k) text += (k > 0 ? ",\n  " : "") + points_text(regions[k]);
+  return text + "]";
+}
+
 }  // namespace
 
 std::string quoted(std::string_view text) {
@@ -67,7 +85,9 @@ std::string value_text(const Parameter& parameter, const Case& values) {
                                [&](const TextParameter& text) {
                                  const std::string& value = text.member(copy);
                                  return quoted(value.empty() ? automatic_word : std::string_view(value));
-                               }},
+                               },
+                               [&](const PointsParameter& points) { return points_text(points.member(copy)); },
+                               [&](const RegionsParameter& regions) { return regions_text(regions.member(copy)); }},
                     parameter.value);
 }
 
@@ -75,7 +95,8 @@ std::string type_text(const Parameter& parameter) {
   return std::visit(
       Overloaded{[](const RealParameter&) { return "number"; }, [](const IntegerParameter&) { return "integer"; },
                  [](const VectorParameter&) { return "[x, y]"; }, [](const WordParameter&) { return "word"; },
-                 [](const TextParameter&) { return "text"; }},
+                 [](const TextParameter&) { return "text"; }, [](const PointsParameter&) { return "[[x, y], ...]"; },
+                 [](const RegionsParameter&) { return "[[[x, y], ...], ...]"; }},
       parameter.value);
 }
 
@@ -86,6 +107,8 @@ std::string default_text(const Parameter& parameter) {
     automatic = std::get_if<Automatic>(&real->fallback);
   if (const auto* text = std::get_if<TextParameter>(&parameter.value)) automatic = &text->fallback;
   if (automatic != nullptr) return fmt::format("{} ({})", quoted(automatic_word), automatic->meaning);
+  if (const auto* points = std::get_if<PointsParameter>(&parameter.value); points != nullptr && !points->none.empty())
+    return fmt::format("[] ({})", points->none);
   Case values;
   store_default(parameter, values);
   std::string text = value_text(parameter, values);
@@ -108,7 +131,9 @@ std::string allowed_text(const Parameter& parameter) {
                                },
                                [](const VectorParameter& vector) { return "each " + range_text(vector.range); },
                                [](const WordParameter& word) { return words_text(word.words); },
-                               [](const TextParameter&) { return std::string("any text without control characters"); }},
+                               [](const TextParameter&) { return std::string("any text without control characters"); },
+                               [](const PointsParameter& points) { return "each " + range_text(points.range); },
+                               [](const RegionsParameter& regions) { return "each " + range_text(regions.range); }},
                     parameter.value);
 }
 

@@ -12,7 +12,7 @@ namespace sphdrop {
 /// As TOML, so that reading it back gives the same bits.
 std::string value_text(const Parameter& parameter, const Case& values);
 
-/// "number", "integer", "[x, y]", "word" or "text".
+/// "number", "integer", "[x, y]", "word", "text", "[[x, y], ...]" or "[[[x, y], ...], ...]".
 std::string type_text(const Parameter& parameter);
 
 /// "required", "auto (what that means)" or the value as TOML.

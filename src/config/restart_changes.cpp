@@ -17,18 +17,23 @@ bool may_change_on_restart(std::string_view key) {
 
 std::vector<ParameterChange> parameter_changes(const Case& before, const Case& after) {
   std::vector<ParameterChange> changes;
-  const auto compare = [&](const Parameter& parameter, std::size_t drop, const Case& one, const Case& other) {
+  const auto compare = [&](const Parameter& parameter, Which which, const Case& one, const Case& other) {
     std::string old_value = value_text(parameter, one), new_value = value_text(parameter, other);
     if (old_value != new_value)
-      changes.push_back({key_of_drop(parameter.key, drop), std::move(old_value), std::move(new_value)});
+      changes.push_back({key_of(parameter.key, which), std::move(old_value), std::move(new_value)});
   };
   for (const Parameter& parameter : parameter_table())
-    if (parameter.key != "output.directory") compare(parameter, 0, before, after);
+    if (parameter.key != "output.directory") compare(parameter, {}, before, after);
   if (before.more_drops.size() != after.more_drops.size())
     changes.push_back({"drop", std::to_string(before.drop_count()), std::to_string(after.drop_count())});
   for (std::size_t k = 1; k < std::min(before.drop_count(), after.drop_count()); ++k)
     for (const Parameter& parameter : parameter_table())
-      if (parameter.section() == "drop") compare(parameter, k, before.with_drop(k), after.with_drop(k));
+      if (parameter.section() == "drop") compare(parameter, {"drop", k}, before.with_drop(k), after.with_drop(k));
+  if (before.more_solids.size() != after.more_solids.size())
+    changes.push_back({"solid", std::to_string(before.solid_count()), std::to_string(after.solid_count())});
+  for (std::size_t k = 1; k < std::min(before.solid_count(), after.solid_count()); ++k)
+    for (const Parameter& parameter : parameter_table())
+      if (parameter.section() == "solid") compare(parameter, {"solid", k}, before.with_solid(k), after.with_solid(k));
   return changes;
 }
 

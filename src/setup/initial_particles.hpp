@@ -1,10 +1,12 @@
 #pragma once
 // Particles as a run starts with them. Positions in m, velocities in m/s, masses in kg per metre of depth.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "particles/plane_moments.hpp"
 #include "particles/vector.hpp"
 
 namespace sphdrop {
@@ -16,14 +18,43 @@ struct InitialFluid {
   Vector centre;  ///< of the drop
 };
 
+/// A corner of the contact surface, which moves with the mean of some particles and hands its force on to them by the
+/// same weights, so that force and moment are kept.
+struct ContactVertex {
+  std::int32_t count = 0;                  ///< of particles
+  std::array<std::int32_t, 4> particle{};  ///< of different ones
+  std::array<double, 4> weight{};          ///< they add up to 1
+
+  static ContactVertex at_particle(std::int32_t k) { return {1, {k}, {1.0}}; }
+};
+
+/// A particle that a support keeps from moving in some directions.
+struct Hold {
+  std::int32_t particle = 0;
+  bool in_x = false, in_y = false;
+};
+
 /// Shapes: [particles]. A beam's particles stand in lattice order: column by column in x, from bottom to top in a
 /// column.
 struct InitialSolid {
   std::vector<Vector> positions, velocities;
   std::vector<double> masses;
   std::vector<char> is_fixed;  ///< 1: a particle of a clamp or wall, which never moves
-  /// The boundary as indices of particles, the solid on the right when walking along.
+  /// The boundary as indices of contact_vertices, the solid on the right when walking along.
   std::vector<std::vector<std::int32_t>> contact_polylines;
+  std::vector<ContactVertex> contact_vertices;  ///< empty: vertex k is particle k
+  /// The parts of the body that belong to a particle, to the south-west, south-east, north-west and north-east of it,
+  /// in spacings about it; empty: a quarter of a square of side 1 each.
+  std::vector<std::array<PlaneMoments, 4>> quadrants;
+  std::vector<Hold> holds;
+  std::vector<Vector> outline;  ///< m; of a polygon or an obstacle
+
+  /// One of several solids: its particles and probes.
+  struct Body {
+    std::int32_t begin = 0, end = 0;
+    std::vector<std::int32_t> deflection_probe, middle_probe;
+  };
+  std::vector<Body> bodies;  ///< empty: one of all particles
   /// The particles whose mean displacement is the deflection delta(t); ascending.
   std::vector<std::int32_t> deflection_probe;
   /// Those of mid-span, ascending; the same as deflection_probe for a beam fixed at both ends.

@@ -11,7 +11,11 @@
 #include "rigid_body/rigid_body.hpp"
 #include "setup/beam.hpp"
 #include "setup/droplet.hpp"
+#include "setup/holds.hpp"
+#include "setup/polygon_body.hpp"
+#include "setup/polygon_geometry.hpp"
 #include "setup/setup_error.hpp"
+#include "setup/several_solids.hpp"
 #include "sph/cell_grid.hpp"
 
 namespace sphdrop {
@@ -22,35 +26,58 @@ namespace {
 void refuse_too_many_particles(const Case& input) {
   constexpr double limit = 1e8;
   const double d = input.resolution.spacing;
-  const SolidKind kind = input.solid.kind;
-  const double length = input.solid.length / d;
-  const double thickness = input.solid.thickness / d;
   double count = 0.0;
   for (std::size_t k = 0; k < input.drop_count(); ++k) {
     const Case::Drop drop = input.with_drop(k).drop;
     if (drop.shape != DropShape::none) count += (drop.diameter / d) * (drop.diameter / d);
   }
-  if (kind == SolidKind::rigid_wall) count += length;
-  if (kind == SolidKind::cantilever || kind == SolidKind::fixed_fixed_beam)
-    count += (length + 2.0 * input.solid.clamp_length / d) *
-             (thickness + 2.0 * static_cast<double>(input.solid.clamp_layers));
+  for (std::size_t k = 0; k < input.solid_count(); ++k) {
+    const Case::Solid& solid = input.solid_at(k);
+    const double length = solid.length / d;
+    if (solid.kind == SolidKind::rigid_wall) count += length;
+    if (solid.is_straight_beam())
+      count += (length + 2.0 * solid.clamp_length / d) *
+               (solid.thickness / d + 2.0 * static_cast<double>(solid.clamp_layers));
+    if (solid.kind == SolidKind::polygon) count += std::abs(signed_area(counterclockwise_polygon(solid.polygon, d)));
+  }
   if (count <= limit) return;
   throw SetupError(fmt::format(
       "a spacing of {:g} m makes about {:.2g} particles; at most {:.2g} can be set up: choose a larger spacing", d,
       count, limit));
 }
 
-InitialSolid build_solid(const Case& input) {
-  switch (input.solid.kind) {
+InitialSolid build_solid(const Case::Solid& solid, double spacing) {
+  InitialSolid body;
+  switch (solid.kind) {
     case SolidKind::cantilever:
     case SolidKind::fixed_fixed_beam:
-      return build_beam(input.solid, input.resolution.spacing);
-    case SolidKind::rigid_wall:
-      return build_rigid_wall(input.solid, input.resolution.spacing);
-    case SolidKind::none:
+      body = build_beam(solid, spacing);
       break;
+    case SolidKind::rigid_wall:
+      body = build_rigid_wall(solid, spacing);
+      break;
+    case SolidKind::polygon:
+      body = build_polygon_body(solid, spacing);
+      break;
+    case SolidKind::obstacle:
+      body = build_obstacle(solid, spacing);
+      break;
+    case SolidKind::none:
+      return body;
   }
-  return {};
+  if (solid.is_elastic()) {
+    add_holds(solid, spacing, body);
+    choose_probe(solid, spacing, body);
+  }
+  move_body(body, {solid.origin_x, solid.origin_y});
+  return body;
+}
+
+std::vector<InitialSolid> build_solids(const Case& input) {
+  std::vector<InitialSolid> solids;
+  for (std::size_t k = 0; k < input.solid_count(); ++k)
+    solids.push_back(build_solid(input.solid_at(k), input.resolution.spacing));
+  return solids;
 }
 
 /// About the origin.
@@ -84,6 +111,8 @@ double drop_centre_x(const Case& input) {
     case SolidKind::fixed_fixed_beam:
       return 0.5 * input.solid.length;
     case SolidKind::rigid_wall:
+    case SolidKind::polygon:
+    case SolidKind::obstacle:
     case SolidKind::none:
       break;
   }
@@ -92,11 +121,10 @@ double drop_centre_x(const Case& input) {
 
 /// Rings end at R - d'/2, a jittered lattice somewhere near R: counted from the lowest particle, the first contact
 /// comes at the same time whatever the arrangement.
-double drop_centre_y(const Case& input, const DropParticles& drop, const InitialSolid& solid) {
-  if (input.solid.kind == SolidKind::none || input.drop.placement == DropPlacement::centre) return input.drop.centre_y;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector& position : drop.positions) lowest = std::min(lowest, position.y);
-  return solid.top + input.drop.gap + 0.5 * input.resolution.spacing - lowest;
+double drop_centre_y(const Case& input, const DropParticles& drop, double centre_x,
+                     const std::vector<InitialSolid>& solids) {
+  if (!input.has_solid() || input.drop.placement == DropPlacement::centre) return input.drop.centre_y;
+  return height_above_solids(solids, drop.positions, centre_x, input.drop.gap, 0.5 * input.resolution.spacing);
 }
 
 InitialFluid place_drop(const Case& input, const DropParticles& drop, Vector centre) {
@@ -155,13 +183,26 @@ void refuse_overlapping_drops(const Case& input, const std::vector<Vector>& posi
     });
 }
 
+/// The places of the contact surface's vertices.
+std::vector<Vector> contact_places(const InitialSolid& solid) {
+  if (solid.contact_vertices.empty()) return solid.positions;
+  std::vector<Vector> places;
+  for (const ContactVertex& vertex : solid.contact_vertices) {
+    Vector place;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(vertex.count); ++k)
+      place += vertex.weight[k] * solid.positions[static_cast<std::size_t>(vertex.particle[k])];
+    places.push_back(place);
+  }
+  return places;
+}
+
 /// Measures with the contact algorithm itself, so that what passes here is at rest there.
 void refuse_overlap(const Case& input, const InitialState& state) {
   const double d = input.resolution.spacing;
   const double contact_distance = input.contact.distance_ratio * d;
   if (state.fluid.positions.empty() || state.solid.contact_polylines.empty() || !(contact_distance > 0.0)) return;
   const Coordinates fluid(state.fluid.positions);
-  const Coordinates solid(state.solid.positions);
+  const Coordinates solid(contact_places(state.solid));
   const auto [lowest, highest] = std::minmax_element(solid.y.begin(), solid.y.end());
   // Far enough to find the boundary from anywhere inside the solid.
   const double reach = contact_distance + (*highest - *lowest);
@@ -202,7 +243,13 @@ Vector drop_velocity(const Case& input, Vector from_centre) {
 InitialState build_initial_state(const Case& input) {
   refuse_too_many_particles(input);
   InitialState state;
-  state.solid = build_solid(input);
+  const std::vector<InitialSolid> solids = build_solids(input);
+  state.solid = joined_solids(solids);
+  const bool is_of_cells = input.any_solid(
+      [](const Case::Solid& one) { return one.is_elastic() && one.formulation == SolidFormulation::cells; });
+  // Kernel sums make one body of what is nearer than their support.
+  refuse_near_solids(state.solid,
+                     (is_of_cells ? 1.0 : 2.0 * input.resolution.smoothing_ratio) * input.resolution.spacing);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   state.drop_centre = {nan, nan};
   std::vector<std::size_t> ends;
@@ -210,7 +257,8 @@ InitialState build_initial_state(const Case& input) {
     const Case one = input.with_drop(k);
     const DropParticles drop = build_drop(one);
     if (drop.positions.empty()) continue;
-    const Vector centre{drop_centre_x(one), drop_centre_y(one, drop, state.solid)};
+    const double centre_x = drop_centre_x(one);
+    const Vector centre{centre_x, drop_centre_y(one, drop, centre_x, solids)};
     if (k == 0) state.drop_centre = centre;
     append(place_drop(one, drop, centre), state.fluid);
     ends.push_back(state.fluid.positions.size());

@@ -51,8 +51,8 @@ std::string resolution_of_drop(const Case& c, double speed) {
 // The contact time on a wall, s, if it can be told.
 std::optional<double> describe_impact(const Case& c, std::string& text) {
   const double speed = impact_speed(c), sigma = c.surface_tension.coefficient;
-  const bool is_impact = c.drop.shape == DropShape::round && c.solid.kind != SolidKind::none && speed > 0 &&
-                         sigma > 0 && c.surface_tension.form != SurfaceTensionForm::none && !c.is_wetting();
+  const bool is_impact = c.drop.shape == DropShape::round && c.has_solid() && speed > 0 && sigma > 0 &&
+                         c.surface_tension.form != SurfaceTensionForm::none && !c.is_wetting();
   if (!is_impact) return std::nullopt;
   const double weber = weber_number(c.fluid.density, speed, c.drop.diameter, sigma);
   if (weber < least_fitted_weber_number || weber > largest_fitted_weber_number) {
@@ -130,8 +130,7 @@ std::string case_numbers_text(const Simulation& simulation) {
     text += fmt::format("rigid drop          {:.6g} kg/m, moment of inertia {:.6g} kg m2/m\n", body.mass,
                         body.moment_of_inertia);
   }
-  if (c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam)
-    describe_beam(c, simulation.parameters().damping_rate, contact_time, text);
+  if (c.solid.has_theory()) describe_beam(c, simulation.parameters().damping_rate.front(), contact_time, text);
   return text;
 }
 

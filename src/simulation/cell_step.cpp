@@ -6,27 +6,47 @@ namespace sphdrop {
 
 namespace {
 
-AnyCellMaterial cell_material(const Case& input, const ElasticMaterial& material) {
+AnyCellMaterial cell_material(const Case::Solid& solid, double spacing) {
+  const ElasticMaterial material{solid.density, solid.youngs_modulus, solid.poisson_ratio};
   const LameModuli moduli(material);
   const double nu = material.poisson_ratio;
   const double bending_modulus = material.youngs_modulus / (1.0 - nu * nu);
-  const double spacing = input.resolution.spacing, viscous_time = input.solid.viscous_time;
-  if (input.solid.material_law == MaterialLaw::neo_hookean)
-    return CellMaterial<NeoHookean>{{moduli}, bending_modulus, spacing, viscous_time};
-  return CellMaterial<StVenantKirchhoff>{{moduli}, bending_modulus, spacing, viscous_time};
+  if (solid.material_law == MaterialLaw::neo_hookean)
+    return CellMaterial<NeoHookean>{{moduli}, bending_modulus, spacing, solid.viscous_time};
+  return CellMaterial<StVenantKirchhoff>{{moduli}, bending_modulus, spacing, solid.viscous_time};
 }
 
 }  // namespace
 
-CellStep::CellStep(const Case& input, const ElasticMaterial& material, const InitialSolid& initial,
-                   std::int64_t first_id)
-    : lattice_(initial.positions, initial.is_fixed, input.resolution.spacing, input.solid.clamp == Clamp::ideal),
-      sweep_(cell_material(input, material)),
-      spacing_(input.resolution.spacing),
-      density_(material.density),
-      first_id_(first_id),
-      is_viscous_(input.solid.viscous_time > 0),
-      is_damped_(is_viscous_ || input.solid.damping_rate > 0 || input.solid.damping_ratio > 0) {}
+CellStep::CellStep(const Case& input, const InitialSolid& initial, std::int64_t first_id)
+    : spacing_(input.resolution.spacing),
+      is_viscous_(input.any_solid([](const Case::Solid& one) { return one.is_elastic() && one.viscous_time > 0; })),
+      is_damped_(is_viscous_ || input.any_solid([](const Case::Solid& one) {
+        return one.is_elastic() && (one.damping_rate > 0 || one.damping_ratio > 0);
+      })) {
+  for (const SolidIds& ids : solid_bodies(initial, first_id)) {
+    const Case::Solid& solid = input.solid_at(ids.solid);
+    if (!solid.is_elastic()) {
+      rigid_.push_back(ids);
+      continue;
+    }
+    const auto first = static_cast<std::size_t>(ids.begin - first_id), count = static_cast<std::size_t>(ids.size());
+    std::span<const std::array<PlaneMoments, 4>> quadrants;
+    if (solid.kind == SolidKind::polygon) quadrants = std::span(initial.quadrants).subspan(first, count);
+    // The lattice's own places.
+    std::vector<Vector> places(initial.positions.begin() + static_cast<std::ptrdiff_t>(first),
+                               initial.positions.begin() + static_cast<std::ptrdiff_t>(first + count));
+    LatticeTurn turn;
+    if (solid.kind == SolidKind::polygon) {
+      const Vector rows = unit({solid.lattice_x, solid.lattice_y});
+      turn = {rows.x, rows.y};
+      for (Vector& p : places) p = {rows.x * p.x + rows.y * p.y, rows.x * p.y - rows.y * p.x};
+    }
+    bodies_.push_back({LatticeCells(places, std::span(initial.is_fixed).subspan(first, count), spacing_,
+                                    solid.clamp == Clamp::ideal, quadrants),
+                       CellSweep(cell_material(solid, spacing_), turn), solid.density, ids.begin});
+  }
+}
 
 std::vector<Column<double>*> CellStep::ghosted(SolidParticles& solid) const {
   std::vector<Column<double>*> columns{&solid.position.x, &solid.position.y};
@@ -35,7 +55,7 @@ std::vector<Column<double>*> CellStep::ghosted(SolidParticles& solid) const {
 }
 
 void CellStep::relist(SolidParticles& solid, const Distribution&) {
-  sweep_.set_mesh(CellMesh(solid, lattice_, first_id_));
+  for (Body& body : bodies_) body.sweep.set_mesh(CellMesh(solid, body.lattice, body.first_id));
 }
 
 void CellStep::predict(SolidParticles& solid, double previous_step) {
@@ -43,16 +63,18 @@ void CellStep::predict(SolidParticles& solid, double previous_step) {
 }
 
 void CellStep::sweep_inner(SolidParticles& solid, const Distribution&) {
-  sweep_.sweep(solid, CellSweep::Cells::without_ghosts);
+  for (Body& body : bodies_) body.sweep.sweep(solid, CellSweep::Cells::without_ghosts);
 }
 
 void CellStep::sweep_rest(SolidParticles& solid, const Distribution&) {
-  sweep_.sweep(solid, CellSweep::Cells::with_ghosts);
-  // Other damping adds to the heating, which starts from nothing.
-  if (is_damped_ && !is_viscous_)
+  for (Body& body : bodies_) body.sweep.sweep(solid, CellSweep::Cells::with_ghosts);
+  // Other damping adds to the heating, which starts from nothing, and so does the contact's force on what is rigid.
+  if (is_damped_ && (!is_viscous_ || bodies_.size() > 1 || !rigid_.empty()))
     for (const RowRange& range : solid.owned)
       std::fill(solid.dissipation_rate.data() + range.begin, solid.dissipation_rate.data() + range.end, 0.0);
-  sweep_.accelerate(solid);
+  for (const SolidIds& ids : rigid_)
+    for_each_owned_of(solid, ids, [&](std::size_t row) { solid.acceleration.set(row, {}); });
+  for (Body& body : bodies_) body.sweep.accelerate(solid);
 }
 
 MotionMaxima CellStep::move(SolidParticles& solid, StepLengths steps, double speed_limit) {
@@ -60,21 +82,30 @@ MotionMaxima CellStep::move(SolidParticles& solid, StepLengths steps, double spe
 }
 
 void CellStep::complete(SolidParticles& solid) const {
-  sweep_.complete(solid, density_);
+  for (const Body& body : bodies_) body.sweep.complete(solid, body.density);
+  // What is rigid is not deformed.
+  for (const SolidIds& ids : rigid_)
+    for_each_owned_of(solid, ids, [&](std::size_t row) {
+      for (Column<double>& column : solid.stress.columns) column[row] = 0.0;
+      solid.pressure[row] = 0.0;
+      solid.density[row] = solid.staggered_density[row];
+    });
 }
 
 void CellStep::add_elastic_energy(const SolidParticles& solid, ExactSum& sum) const {
   // A cell belongs to the owner of its south-west corner.
-  solid.for_each_owned([&](std::size_t row) {
-    if (sweep_.mesh().is_cell(static_cast<std::int32_t>(row)))
-      sum.add(sweep_.energy(solid, static_cast<std::int32_t>(row)));
-  });
+  for (const Body& body : bodies_)
+    solid.for_each_owned([&](std::size_t row) {
+      if (body.sweep.mesh().is_cell(static_cast<std::int32_t>(row)))
+        sum.add(body.sweep.energy(solid, static_cast<std::int32_t>(row)));
+    });
 }
 
 std::optional<SolidStep::Inversion> CellStep::inversion(const SolidParticles& solid) const {
-  const auto& found = sweep_.inverted();
-  if (!found) return std::nullopt;
-  return Inversion{solid.id[static_cast<std::size_t>(found->row)], found->determinant};
+  for (const Body& body : bodies_)
+    if (const auto& found = body.sweep.inverted())
+      return Inversion{solid.id[static_cast<std::size_t>(found->row)], found->determinant};
+  return std::nullopt;
 }
 
 }  // namespace sphdrop

@@ -1,16 +1,20 @@
 #pragma once
 // The solid of cells in a step.
 
+#include <vector>
+
+#include "simulation/solid_bodies.hpp"
 #include "simulation/solid_step.hpp"
 #include "solid/cells/cell_sweep.hpp"
 #include "solid/cells/lattice_cells.hpp"
 
 namespace sphdrop {
 
+/// Of several solids each has its own cells and material.
 class CellStep : public SolidStep {
  public:
   /// Throws std::invalid_argument if the particles do not stand on a lattice.
-  CellStep(const Case& input, const ElasticMaterial& material, const InitialSolid& initial, std::int64_t first_id);
+  CellStep(const Case& input, const InitialSolid& initial, std::int64_t first_id);
 
   bool is_total_lagrangian() const override { return true; }
   /// One lattice diagonal, and something for rounding.
@@ -26,10 +30,15 @@ class CellStep : public SolidStep {
   std::optional<Inversion> inversion(const SolidParticles& solid) const override;
 
  private:
-  LatticeCells lattice_;
-  CellSweep sweep_;
-  double spacing_, density_;
-  std::int64_t first_id_;
+  struct Body {
+    LatticeCells lattice;
+    CellSweep sweep;
+    double density;
+    std::int64_t first_id;
+  };
+  std::vector<Body> bodies_;
+  std::vector<SolidIds> rigid_;
+  double spacing_;
   bool is_viscous_, is_damped_;
 };
 

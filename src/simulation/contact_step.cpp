@@ -9,13 +9,30 @@
 
 namespace sphdrop {
 
-ContactStep::ContactStep(const Communicator& communicator, const Case& input,
-                         const std::vector<std::vector<std::int64_t>>& polylines)
+namespace {
+
+// A value that goes with some particles.
+double mean_over(const ContactVertex& vertex, std::span<const double> of_particles) {
+  double sum = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex.count); ++k)
+    sum += vertex.weight[k] * of_particles[static_cast<std::size_t>(vertex.particle[k])];
+  return sum;
+}
+
+std::int32_t place_of(std::int64_t wanted, std::span<const std::int64_t> ascending) {
+  return static_cast<std::int32_t>(std::lower_bound(ascending.begin(), ascending.end(), wanted) - ascending.begin());
+}
+
+}  // namespace
+
+ContactStep::ContactStep(const Communicator& communicator, const Case& input, const InitialSolid& solid,
+                         std::int64_t first_id)
     : communicator_(communicator),
       time_step_stiffness_(input.contact.stiffness_form == ContactStiffness::time_step ? input.contact.stiffness : 0.0),
       drop_is_rigid_(input.drop.is_rigid()),
       is_wetting_(input.is_wetting()),
-      spacing_(input.resolution.spacing) {
+      spacing_(input.resolution.spacing),
+      vertices_are_particles_(solid.contact_vertices.empty()) {
   const double d = input.resolution.spacing;
   parameters_.contact_distance = input.contact.distance_ratio * d;
   parameters_.overlap_limit = input.contact.overlap_limit;
@@ -23,17 +40,28 @@ ContactStep::ContactStep(const Communicator& communicator, const Case& input,
     parameters_.spring_stiffness = input.contact.stiffness * input.contact_modulus();
   parameters_.damping_ratio = input.contact.damping_ratio;
   parameters_.drag_rate = input.contact.wall_drag * input.fluid.viscosity / (input.fluid.density * d * d);
-  for (const auto& polyline : polylines) vertex_ids_.insert(vertex_ids_.end(), polyline.begin(), polyline.end());
-  std::sort(vertex_ids_.begin(), vertex_ids_.end());
-  vertex_ids_.erase(std::unique(vertex_ids_.begin(), vertex_ids_.end()), vertex_ids_.end());
-  std::vector<std::vector<std::int32_t>> vertices;
-  for (const auto& polyline : polylines) {
-    std::vector<std::int32_t>& indices = vertices.emplace_back();
-    for (const std::int64_t id : polyline)
-      indices.push_back(static_cast<std::int32_t>(std::lower_bound(vertex_ids_.begin(), vertex_ids_.end(), id) -
-                                                  vertex_ids_.begin()));
+  std::vector<std::int32_t> used;  // vertices of the boundary, ascending
+  for (const auto& polyline : solid.contact_polylines) used.insert(used.end(), polyline.begin(), polyline.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const std::int32_t k : used)
+    vertices_.push_back(vertices_are_particles_ ? ContactVertex::at_particle(k)
+                                                : solid.contact_vertices[static_cast<std::size_t>(k)]);
+  for (const ContactVertex& vertex : vertices_)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(vertex.count); ++k)
+      particle_ids_.push_back(first_id + vertex.particle[k]);
+  std::sort(particle_ids_.begin(), particle_ids_.end());
+  particle_ids_.erase(std::unique(particle_ids_.begin(), particle_ids_.end()), particle_ids_.end());
+  for (ContactVertex& vertex : vertices_)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(vertex.count); ++k)
+      vertex.particle[k] = place_of(first_id + vertex.particle[k], particle_ids_);
+  std::vector<std::vector<std::int32_t>> polylines;
+  for (const auto& polyline : solid.contact_polylines) {
+    std::vector<std::int32_t>& indices = polylines.emplace_back();
+    for (const std::int32_t k : polyline)
+      indices.push_back(static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), k) - used.begin()));
   }
-  segments_ = segments_of_polylines(vertices);
+  segments_ = segments_of_polylines(polylines);
 }
 
 ContactParameters ContactStep::parameters(double step) const {
@@ -52,21 +80,30 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   if (segments_.empty()) return;
 
   // The whole boundary on every rank: O(sqrt N) positions, once in hundreds of steps.
-  struct Vertex {
+  struct BoundaryParticle {
     std::int64_t index;
     std::int64_t row;
     Vector position;
   };
-  std::vector<Vertex> mine;
+  std::vector<BoundaryParticle> mine;
   solid.for_each_owned([&](std::size_t row) {
-    const auto found = std::lower_bound(vertex_ids_.begin(), vertex_ids_.end(), solid.id[row]);
-    if (found != vertex_ids_.end() && *found == solid.id[row])
-      mine.push_back({found - vertex_ids_.begin(), static_cast<std::int64_t>(row), solid.position.at(row)});
+    const auto found = std::lower_bound(particle_ids_.begin(), particle_ids_.end(), solid.id[row]);
+    if (found != particle_ids_.end() && *found == solid.id[row])
+      mine.push_back({found - particle_ids_.begin(), static_cast<std::int64_t>(row), solid.position.at(row)});
   });
-  std::vector<double> x(vertex_ids_.size()), y(vertex_ids_.size());
-  for (const Vertex& v : communicator_.all_gather(std::span<const Vertex>(mine))) {
-    x[static_cast<std::size_t>(v.index)] = v.position.x;
-    y[static_cast<std::size_t>(v.index)] = v.position.y;
+  std::vector<double> x(particle_ids_.size()), y(particle_ids_.size());
+  for (const BoundaryParticle& p : communicator_.all_gather(std::span<const BoundaryParticle>(mine))) {
+    x[static_cast<std::size_t>(p.index)] = p.position.x;
+    y[static_cast<std::size_t>(p.index)] = p.position.y;
+  }
+  if (!vertices_are_particles_) {
+    std::vector<double> at_x, at_y;
+    for (const ContactVertex& vertex : vertices_) {
+      at_x.push_back(mean_over(vertex, x));
+      at_y.push_back(mean_over(vertex, y));
+    }
+    x = std::move(at_x);
+    y = std::move(at_y);
   }
 
   // Until the next redistribution liquid and boundary each come nearer by half a skin at most.
@@ -95,12 +132,20 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
 
   std::vector<std::int64_t> solid_ids;
   solid_rows_.clear();
-  for (const Vertex& v : mine) {
-    if (!std::binary_search(part.original_vertices.begin(), part.original_vertices.end(),
-                            static_cast<std::int32_t>(v.index)))
-      continue;
-    solid_rows_.push_back(static_cast<std::int32_t>(v.row));
-    solid_ids.push_back(solid.id[static_cast<std::size_t>(v.row)]);
+  part_.clear();
+  for (const std::int32_t k : part.original_vertices) part_.push_back(vertices_[static_cast<std::size_t>(k)]);
+  std::vector<std::int64_t> gathered;  // the particles of the part, ascending
+  for (const ContactVertex& vertex : part_)
+    gathered.insert(gathered.end(), vertex.particle.begin(), vertex.particle.begin() + vertex.count);
+  std::sort(gathered.begin(), gathered.end());
+  gathered.erase(std::unique(gathered.begin(), gathered.end()), gathered.end());
+  for (ContactVertex& vertex : part_)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(vertex.count); ++k)
+      vertex.particle[k] = place_of(vertex.particle[k], gathered);
+  for (const BoundaryParticle& p : mine) {
+    if (!std::binary_search(gathered.begin(), gathered.end(), p.index)) continue;
+    solid_rows_.push_back(static_cast<std::int32_t>(p.row));
+    solid_ids.push_back(solid.id[static_cast<std::size_t>(p.row)]);
   }
   const int owner = rank_with_most(communicator_, static_cast<std::int64_t>(fluid_rows_.size() + solid_rows_.size()));
   move_record(owner);
@@ -111,10 +156,16 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   returned_solid_x_.assign(solid.size(), 0.0);
   returned_solid_y_.assign(solid.size(), 0.0);
 
-  const std::size_t particles = fluid_gather_.ids().size(), vertices = solid_gather_.ids().size();
+  const bool is_owner = owner == communicator_.rank();
+  const std::size_t particles = fluid_gather_.ids().size(), vertices = is_owner ? part_.size() : 0;
   for (auto* column : {&fluid_x_, &fluid_y_, &fluid_mass_, &acceleration_x_, &acceleration_y_})
     column->resize(particles);
   for (auto* column : {&vertex_x_, &vertex_y_, &force_x_, &force_y_}) column->resize(vertices);
+  if (!vertices_are_particles_) {
+    for (auto* column : {&particle_x_, &particle_y_, &share_x_, &share_y_}) column->resize(solid_gather_.ids().size());
+    if (parameters_.resists_motion())
+      for (auto* column : {&particle_velocity_x_, &particle_velocity_y_}) column->resize(solid_gather_.ids().size());
+  }
   if (parameters_.resists_motion()) {
     for (auto* column : {&fluid_velocity_x_, &fluid_velocity_y_}) column->resize(particles);
     for (auto* column : {&vertex_velocity_x_, &vertex_velocity_y_}) column->resize(vertices);
@@ -122,12 +173,11 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   fluid_gather_.start_gather(
       std::array<const void*, 3>{fluid.position.x.data(), fluid.position.y.data(), fluid.mass.data()});
   fluid_gather_.finish_gather(std::array<void*, 3>{fluid_x_.data(), fluid_y_.data(), fluid_mass_.data()});
-  solid_gather_.start_gather(std::array<const void*, 2>{solid.position.x.data(), solid.position.y.data()});
-  solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
-  // Vertices of the part and gathered ids both ascend with the id, so their places agree.
-  assert(owner != communicator_.rank() || vertices == part.original_vertices.size());
-  solver_.rebuild(fluid_x_, fluid_y_, vertex_x_, vertex_y_,
-                  owner == communicator_.rank() ? part.segments : std::vector<Segment>{}, reach);
+  // The particles of the part and gathered ids both ascend with the id, so their places agree.
+  assert(!is_owner || solid_gather_.ids().size() == gathered.size());
+  if (!is_owner) part_.clear();
+  gather_boundary(solid);
+  solver_.rebuild(fluid_x_, fluid_y_, vertex_x_, vertex_y_, is_owner ? part.segments : std::vector<Segment>{}, reach);
 }
 
 void ContactStep::move_record(int new_owner) {
@@ -174,7 +224,29 @@ void ContactStep::start(const FluidParticles& fluid, const SolidParticles& solid
 
 void ContactStep::gather_boundary(const SolidParticles& solid) {
   solid_gather_.start_gather(std::array<const void*, 2>{solid.position.x.data(), solid.position.y.data()});
-  solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+  if (vertices_are_particles_) {
+    solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+  } else {
+    solid_gather_.finish_gather(std::array<void*, 2>{particle_x_.data(), particle_y_.data()});
+    find_vertices();
+  }
+}
+
+void ContactStep::find_vertices() {
+  for (std::size_t k = 0; k < part_.size(); ++k) {
+    vertex_x_[k] = mean_over(part_[k], particle_x_);
+    vertex_y_[k] = mean_over(part_[k], particle_y_);
+  }
+}
+
+void ContactStep::share_forces() {
+  for (auto* column : {&share_x_, &share_y_}) std::fill(column->begin(), column->end(), 0.0);
+  for (std::size_t k = 0; k < part_.size(); ++k)
+    for (std::size_t n = 0; n < static_cast<std::size_t>(part_[k].count); ++n) {
+      const auto particle = static_cast<std::size_t>(part_[k].particle[n]);
+      share_x_[particle] += part_[k].weight[n] * force_x_[k];
+      share_y_[particle] += part_[k].weight[n] * force_y_[k];
+    }
 }
 
 void ContactStep::receive() {
@@ -183,12 +255,27 @@ void ContactStep::receive() {
   if (parameters_.resists_motion()) {
     fluid_gather_.finish_gather(
         std::array<void*, 4>{fluid_x_.data(), fluid_y_.data(), fluid_velocity_x_.data(), fluid_velocity_y_.data()});
-    solid_gather_.finish_gather(
-        std::array<void*, 4>{vertex_x_.data(), vertex_y_.data(), vertex_velocity_x_.data(), vertex_velocity_y_.data()});
+    if (vertices_are_particles_) {
+      solid_gather_.finish_gather(std::array<void*, 4>{vertex_x_.data(), vertex_y_.data(), vertex_velocity_x_.data(),
+                                                       vertex_velocity_y_.data()});
+      return;
+    }
+    solid_gather_.finish_gather(std::array<void*, 4>{particle_x_.data(), particle_y_.data(),
+                                                     particle_velocity_x_.data(), particle_velocity_y_.data()});
+    for (std::size_t k = 0; k < part_.size(); ++k) {
+      vertex_velocity_x_[k] = mean_over(part_[k], particle_velocity_x_);
+      vertex_velocity_y_[k] = mean_over(part_[k], particle_velocity_y_);
+    }
+    find_vertices();
     return;
   }
   fluid_gather_.finish_gather(std::array<void*, 2>{fluid_x_.data(), fluid_y_.data()});
-  solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+  if (vertices_are_particles_) {
+    solid_gather_.finish_gather(std::array<void*, 2>{vertex_x_.data(), vertex_y_.data()});
+    return;
+  }
+  solid_gather_.finish_gather(std::array<void*, 2>{particle_x_.data(), particle_y_.data()});
+  find_vertices();
 }
 
 void ContactStep::work(double time, double step, double kick, const AdhesionSummary& adhesion) {
@@ -216,7 +303,12 @@ void ContactStep::work(double time, double step, double kick, const AdhesionSumm
   }
   if (!drop_is_rigid_)
     fluid_gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
-  solid_gather_.start_scatter(std::array<const void*, 2>{force_x_.data(), force_y_.data()});
+  if (vertices_are_particles_) {
+    solid_gather_.start_scatter(std::array<const void*, 2>{force_x_.data(), force_y_.data()});
+    return;
+  }
+  share_forces();
+  solid_gather_.start_scatter(std::array<const void*, 2>{share_x_.data(), share_y_.data()});
 }
 
 void ContactStep::finish(FluidParticles& fluid) {
@@ -258,6 +350,15 @@ void ContactStep::share_load() {
   load_numbers_.assign({summary_.force_on_solid.x, summary_.force_on_solid.y, summary_.moment_on_solid});
   communicator_.broadcast(load_numbers_, owner_);
   load_on_solid_ = {{load_numbers_[0], load_numbers_[1]}, load_numbers_[2]};
+}
+
+Vector ContactStep::force_on(const SolidIds& solid) const {
+  Vector force;
+  for (std::size_t k = 0; k < part_.size(); ++k) {
+    const std::int64_t id = solid_gather_.ids()[static_cast<std::size_t>(part_[k].particle[0])];
+    if (id >= solid.begin && id < solid.end) force += {force_x_[k], force_y_[k]};
+  }
+  return force;
 }
 
 std::int64_t ContactStep::deepest_particle() const {

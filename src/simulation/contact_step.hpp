@@ -12,7 +12,9 @@
 #include "diagnostics/contact_record.hpp"
 #include "particles/fluid_particles.hpp"
 #include "particles/solid_particles.hpp"
+#include "setup/initial_particles.hpp"
 #include "simulation/distribution.hpp"
+#include "simulation/solid_bodies.hpp"
 #include "wetting/adhesion.hpp"
 
 namespace sphdrop {
@@ -27,9 +29,8 @@ struct Load {
 /// within reach of the liquid are gathered.
 class ContactStep {
  public:
-  /// `polylines`: the solid's boundary as global ids, the solid on the right.
-  ContactStep(const Communicator& communicator, const Case& input,
-              const std::vector<std::vector<std::int64_t>>& polylines);
+  /// The boundary is that of `solid`, whose first particle has the global id `first_id`.
+  ContactStep(const Communicator& communicator, const Case& input, const InitialSolid& solid, std::int64_t first_id);
 
   /// Collective, after every redistribution: who may touch whom until the next one.
   void regather(const FluidParticles& fluid, const SolidParticles& solid, const InteractionRange& range);
@@ -62,6 +63,8 @@ class ContactStep {
   /// and the forces on it. If the solid attracts the liquid the part reaches as far as that matters.
   ContactSurface boundary() const { return {solver_.segments(), vertex_x_, vertex_y_}; }
   ContactVertices boundary_forces() { return {vertex_x_, vertex_y_, force_x_, force_y_}; }
+  /// At the owner: the force on one solid, N/m, of the step last worked on.
+  Vector force_on(const SolidIds& solid) const;
   /// At the owner, of the step last worked on.
   const ContactSummary& summary() const { return summary_; }
   const ContactRecord& record() const { return record_; }
@@ -85,6 +88,8 @@ class ContactStep {
  private:
   ContactParameters parameters(double step) const;
   double boundary_reach(const InteractionRange& range) const;
+  void find_vertices();
+  void share_forces();
   void move_record(int new_owner);
   void accelerate_liquid(FluidParticles& fluid);
   void share_load();
@@ -95,7 +100,9 @@ class ContactStep {
   bool drop_is_rigid_;
   bool is_wetting_;
   double spacing_;
-  std::vector<std::int64_t> vertex_ids_;  // ascending; a vertex' index is its place here
+  std::vector<std::int64_t> particle_ids_;  // of the boundary, ascending; elsewhere a particle is its place here
+  std::vector<ContactVertex> vertices_;     // of the whole boundary
+  bool vertices_are_particles_;             // vertex k is particle k
   std::vector<Segment> segments_;
 
   int owner_ = 0;
@@ -114,8 +121,11 @@ class ContactStep {
   double staggered_angular_impulse_ = 0, angular_impulse_ = 0, last_moment_ = 0;
   double dissipated_energy_ = 0, last_dissipation_ = 0;
   std::vector<double> fluid_x_, fluid_y_, fluid_mass_, acceleration_x_, acceleration_y_;
+  std::vector<ContactVertex> part_;  // the vertices of the part, of particles as gathered
   std::vector<double> vertex_x_, vertex_y_, force_x_, force_y_;
   std::vector<double> fluid_velocity_x_, fluid_velocity_y_, vertex_velocity_x_, vertex_velocity_y_;
+  // Where vertices are not particles: those they go with.
+  std::vector<double> particle_x_, particle_y_, particle_velocity_x_, particle_velocity_y_, share_x_, share_y_;
 };
 
 }  // namespace sphdrop

@@ -9,7 +9,7 @@ namespace sphdrop {
 HypoelasticStep::HypoelasticStep(const Case& input, const HypoelasticParameters& parameters)
     : sweep_(parameters),
       material_(parameters.material),
-      is_plane_strain_(input.solid.deviatoric_trace == DeviatoricTrace::plane_strain) {}
+      is_plane_strain_(input.first_elastic_solid().deviatoric_trace == DeviatoricTrace::plane_strain) {}
 
 std::vector<Column<double>*> HypoelasticStep::ghosted(SolidParticles& solid) const {
   return solid.columns_with(Role::ghosted);

@@ -37,7 +37,10 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
   check_nothing_is_lost();
   corrected_density_.resize(fluid_.size() + column_padding);
   fluid_sweep_.resize(fluid_);
-  if (solid_has_changed) solid_step_->relist(solid_, distribution_);
+  if (solid_has_changed) {
+    solid_step_->relist(solid_, distribution_);
+    supports_.relist(solid_);
+  }
   contact_displacements_.reset();
   contact_.regather(fluid_, solid_, parameters_.range);
   if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_, contact_);

@@ -192,8 +192,38 @@ void observe_beam(const Simulation& simulation, const std::array<double, sum_cou
   const auto probe_size = static_cast<double>(simulation.deflection_probe().size());
   o.deflection = sum[probe_deflection] / probe_size;
   o.middle_deflection = sum[middle_probe_deflection] / static_cast<double>(simulation.middle_probe().size());
-  if (simulation.input().solid.kind == SolidKind::cantilever)
+  if (simulation.input().solid.kind == SolidKind::cantilever || simulation.input().solid.kind == SolidKind::polygon)
     o.tip_displacement_x = sum[probe_displacement_x] / probe_size;
+}
+
+void observe_solids(const Simulation& simulation, Observation& o) {
+  const auto& probes = simulation.probes_of_solids();
+  std::vector<ExactSum> sums(2 * probes.size());
+  const SolidParticles& s = simulation.solid();
+  for (std::size_t k = 0; k < probes.size(); ++k)
+    for (const std::int64_t id : probes[k])
+      for_each_owned_of(s, {k, id, id + 1}, [&](std::size_t row) {
+        const Vector displacement = s.position.at(row) - s.reference_position.at(row);
+        sums[2 * k].add(displacement.x);
+        sums[2 * k + 1].add(displacement.y);
+      });
+  if (probes.empty()) return;
+  ExactSum::reduce(sums, simulation.communicator());
+  const ContactStep& contact = simulation.contact();
+  std::vector<double> forces;
+  if (simulation.communicator().rank() == contact.owner())
+    for (const SolidIds& ids : simulation.solids()) {
+      const Vector force = contact.force_on(ids);
+      forces.push_back(force.x);
+      forces.push_back(force.y);
+    }
+  simulation.communicator().broadcast(forces, contact.owner());
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const auto count = static_cast<double>(probes[k].size());
+    const bool yields = !probes[k].empty();
+    o.solids.push_back({yields ? sums[2 * k + 1].value() / count : nan, yields ? sums[2 * k].value() / count : nan,
+                        forces[2 * k], forces[2 * k + 1]});
+  }
 }
 
 void observe_contact(const Simulation& simulation, Observation& o) {
@@ -235,6 +265,7 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.time_step = simulation.time_step();
   if (simulation.fluid_total() > 0) observe_drop(simulation, sum, o);
   observe_beam(simulation, sum, o);
+  observe_solids(simulation, o);
   observe_contact(simulation, o);
 
   const Case& c = simulation.input();

@@ -4,10 +4,17 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "simulation/simulation.hpp"
 
 namespace sphdrop {
+
+/// One of several solids at one instant; NaN for what does not yield.
+struct SolidObservation {
+  double deflection, displacement_x;        ///< m
+  double contact_force_x, contact_force_y;  ///< N/m
+};
 
 /// The watched quantities at one instant, per metre of depth; the same on every rank, and the same bits for any number
 /// of them. NaN for what the case does not have.
@@ -30,6 +37,7 @@ struct Observation {
   double momentum_fluid_x, momentum_fluid_y, momentum_solid_x, momentum_solid_y;
   double angular_momentum_fluid, angular_momentum_solid;
   double largest_density_error;
+  std::vector<SolidObservation> solids;  ///< of several; empty where there is one or none
 };
 
 /// Collective. Looks at the state between evaluate() and move(). `initial_total` is the total energy of the first
@@ -47,5 +55,13 @@ struct ObservedQuantity {
 
 /// Every quantity of an Observation, in the order of history.csv's columns.
 std::span<const ObservedQuantity> observed_quantities();
+
+struct SolidQuantity {
+  std::string_view name, unit, description;
+  double SolidObservation::*value;
+};
+
+/// Those of each of several solids, which follow in history.csv with the solid's number behind the name.
+std::span<const SolidQuantity> solid_quantities();
 
 }  // namespace sphdrop

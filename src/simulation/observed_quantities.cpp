@@ -77,7 +77,21 @@ std::span<const ObservedQuantity> observed_quantities() {
       {"angular_momentum_solid", "kg m/s", "about the origin", &O::angular_momentum_solid},
       {"largest_density_error", "1", "largest |rho/rho0 - 1| in the liquid", &O::largest_density_error},
   };
-  static_assert(sizeof table / sizeof table[0] * sizeof(double) == sizeof(Observation), "every quantity stands here");
+  static_assert(
+      sizeof table / sizeof table[0] * sizeof(double) + sizeof(std::vector<SolidObservation>) == sizeof(Observation),
+      "every quantity stands here");
+  return table;
+}
+
+std::span<const SolidQuantity> solid_quantities() {
+  using S = SolidObservation;
+  static constexpr SolidQuantity table[] = {
+      {"deflection", "m", "mean y displacement where it is watched, negative downwards", &S::deflection},
+      {"displacement_x", "m", "mean x displacement there", &S::displacement_x},
+      {"contact_force_x", "N/m", "force of the drops on it", &S::contact_force_x},
+      {"contact_force_y", "N/m", "force of the drops on it", &S::contact_force_y},
+  };
+  static_assert(sizeof table / sizeof table[0] * sizeof(double) == sizeof(S), "every quantity stands here");
   return table;
 }
 

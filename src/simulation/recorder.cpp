@@ -16,10 +16,14 @@ namespace sphdrop {
 
 namespace {
 
-std::vector<HistoryColumn> history_columns() {
+std::vector<HistoryColumn> history_columns(std::size_t solids) {
   std::vector<HistoryColumn> columns;
   for (const ObservedQuantity& q : observed_quantities())
     columns.push_back({std::string(q.name), std::string(q.unit), std::string(q.description)});
+  for (std::size_t k = 1; k <= solids && solids > 1; ++k)
+    for (const SolidQuantity& q : solid_quantities())
+      columns.push_back(
+          {fmt::format("{}_{}", q.name, k), std::string(q.unit), fmt::format("solid {}: {}", k, q.description)});
   return columns;
 }
 
@@ -46,10 +50,10 @@ Recorder::Recorder(Simulation& simulation, const RecorderOptions& options, const
       first_step_(simulation.step()),
       start_(std::chrono::steady_clock::now()) {
   if (checkpoint != nullptr) restore(*checkpoint);
+  const std::vector<HistoryColumn> columns = history_columns(simulation.input().solid_count());
   on_first_rank([&] {
-    history_.emplace(checkpoint == nullptr
-                         ? HistoryWriter::create(options_.directory, history_columns())
-                         : HistoryWriter::resume(options_.directory, history_columns(), simulation_.time()));
+    history_.emplace(checkpoint == nullptr ? HistoryWriter::create(options_.directory, columns)
+                                           : HistoryWriter::resume(options_.directory, columns, simulation_.time()));
   });
 }
 
@@ -200,6 +204,8 @@ void Recorder::write_row() {
   on_first_rank([&] {
     std::vector<double> values;
     for (const ObservedQuantity& q : observed_quantities()) values.push_back((*last_).*q.value);
+    for (const SolidObservation& solid : last_->solids)
+      for (const SolidQuantity& q : solid_quantities()) values.push_back(solid.*q.value);
     history_->append(values);
   });
   const double kinetic = first_->kinetic_fluid + first_->kinetic_solid;
@@ -244,7 +250,7 @@ RunSummary Recorder::summary() const {
   if (communicator.rank() == simulation_.contact().owner()) record = simulation_.contact().record().to_numbers();
   communicator.broadcast(record, simulation_.contact().owner());
   const bool has_drop = simulation_.fluid_total() > 0, has_solid = simulation_.solid_total() > 0;
-  const bool is_beam = c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam;
+  const bool is_beam = c.has_elastic_solid();
   if (has_drop && has_solid) r.contact = contact_summary(ContactRecord::from_numbers(record));
 
   if (has_drop && extremes_.width().sampled()) {
@@ -256,7 +262,7 @@ RunSummary Recorder::summary() const {
           {last_->drop_velocity_x, last_->drop_velocity_y}, last_->drop_angle, first_->drop_spin, last_->drop_spin};
   }
 
-  if (is_beam && extremes_.depth().sampled()) {
+  if (c.solid.is_elastic() && extremes_.depth().sampled()) {
     const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
                               c.solid.thickness};
     RunSummary::Beam b;
@@ -264,9 +270,10 @@ RunSummary Recorder::summary() const {
     b.length = c.solid.length;
     b.measured_period = ringing_period();
     const bool is_cantilever = c.solid.kind == SolidKind::cantilever;
-    b.theory_period =
-        period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam));
-    if (is_cantilever && c.drop.shape == DropShape::round && c.drop.velocity_y < 0)
+    if (c.solid.has_theory())
+      b.theory_period =
+          period_of(is_cantilever ? cantilever_angular_frequency(beam) : fixed_fixed_angular_frequency(beam));
+    if (is_cantilever && c.solid.has_theory() && c.drop.shape == DropShape::round && c.drop.velocity_y < 0)
       b.theory_deflection =
           cantilever_largest_deflection(beam, round_drop_mass(c.drop.density, c.drop.diameter), -c.drop.velocity_y);
     r.beam = b;

@@ -64,21 +64,20 @@ AnyFluidPairParameters fluid_pair_parameters(const Case::Fluid& fluid, const Smo
       kernel);
 }
 
+double mass_proportional_damping_rate(const Case::Solid& solid) {
+  if (!solid.is_straight_beam() || !(solid.damping_ratio > 0)) return solid.damping_rate;
+  const BeamProperties beam{solid.youngs_modulus, solid.poisson_ratio, solid.density, solid.length, solid.thickness};
+  return solid.damping_rate + 2.0 * solid.damping_ratio *
+                                  (solid.kind == SolidKind::cantilever ? cantilever_angular_frequency(beam)
+                                                                       : fixed_fixed_angular_frequency(beam));
+}
+
 template <class Set>
 double largest_squared_speed(const Set& set) {
   double largest = 0;
   set.for_each_owned(
       [&](std::size_t row) { largest = std::max(largest, squared_length(set.staggered_velocity.at(row))); });
   return largest;
-}
-
-std::vector<std::vector<std::int64_t>> global_polylines(const InitialSolid& solid, std::size_t first_id) {
-  std::vector<std::vector<std::int64_t>> polylines;
-  for (const auto& polyline : solid.contact_polylines) {
-    std::vector<std::int64_t>& ids = polylines.emplace_back();
-    for (const std::int32_t index : polyline) ids.push_back(static_cast<std::int64_t>(first_id) + index);
-  }
-  return polylines;
 }
 
 }  // namespace
@@ -89,14 +88,24 @@ DerivedParameters::DerivedParameters(const Case& c)
       range{2.0 * smoothing_length, c.parallel.skin * c.resolution.spacing},
       fluid_pair(fluid_pair_parameters(c.fluid, kernel, smoothing_length)),
       solid{{CubicSpline(smoothing_length), {}, 1.0 / CubicSpline(smoothing_length).value(c.resolution.spacing)},
-            {c.solid.density, c.solid.youngs_modulus, c.solid.poisson_ratio},
-            c.solid.deviatoric_trace == DeviatoricTrace::plane_strain ? 1.0 / 3.0 : 0.5,
-            c.solid.artificial_stress_coefficient} {
-  const bool is_elastic = c.solid.kind == SolidKind::cantilever || c.solid.kind == SolidKind::fixed_fixed_beam;
+            {c.first_elastic_solid().density, c.first_elastic_solid().youngs_modulus,
+             c.first_elastic_solid().poisson_ratio},
+            c.first_elastic_solid().deviatoric_trace == DeviatoricTrace::plane_strain ? 1.0 / 3.0 : 0.5,
+            c.first_elastic_solid().artificial_stress_coefficient} {
+  const bool is_elastic = c.has_elastic_solid();
+  const Case::Solid& first = c.first_elastic_solid();
   const bool has_drop = c.drop.shape != DropShape::none;
-  const double solid_speed = solid.material.sound_speed();
-  solid.pair.viscosity = {c.solid.artificial_viscosity_alpha, c.solid.artificial_viscosity_beta, solid_speed,
-                          smoothing_length};
+  solid.pair.viscosity = {first.artificial_viscosity_alpha, first.artificial_viscosity_beta,
+                          solid.material.sound_speed(), smoothing_length};
+  double solid_speed = 0, viscous_time = 0;
+  for (std::size_t k = 0; k < c.solid_count(); ++k) {
+    const Case::Solid& one = c.solid_at(k);
+    damping_rate.push_back(one.is_elastic() ? mass_proportional_damping_rate(one) : 0.0);
+    if (!one.is_elastic()) continue;
+    solid_speed =
+        std::max(solid_speed, ElasticMaterial{one.density, one.youngs_modulus, one.poisson_ratio}.sound_speed());
+    viscous_time = std::max(viscous_time, one.viscous_time);
+  }
   time_step.sound_cfl = c.time.sound_cfl;
   time_step.capillary_cfl = c.time.capillary_cfl;
   time_step.viscous_cfl = c.time.viscous_cfl;
@@ -115,15 +124,7 @@ DerivedParameters::DerivedParameters(const Case& c)
   const bool has_tension = c.drop.is_liquid() && c.surface_tension.form != SurfaceTensionForm::none;
   time_step.surface_tension = has_tension ? c.surface_tension.coefficient : 0.0;
   time_step.viscosity = c.drop.is_liquid() ? c.fluid.viscosity : 0.0;
-  time_step.viscous_time = is_elastic ? c.solid.viscous_time : 0.0;
-  damping_rate = c.solid.damping_rate;
-  if (is_elastic && c.solid.damping_ratio > 0) {
-    const BeamProperties beam{c.solid.youngs_modulus, c.solid.poisson_ratio, c.solid.density, c.solid.length,
-                              c.solid.thickness};
-    damping_rate += 2.0 * c.solid.damping_ratio *
-                    (c.solid.kind == SolidKind::cantilever ? cantilever_angular_frequency(beam)
-                                                           : fixed_fixed_angular_frequency(beam));
-  }
+  time_step.viscous_time = viscous_time;
 }
 
 Simulation::Simulation(const Communicator& communicator, const Case& input, const InitialFluid& initial_fluid,
@@ -140,7 +141,7 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
       gauge_(communicator, input, initial_fluid.masses),
       shifting_(input, parameters_.kernel),
       surface_tension_(communicator, input, parameters_.kernel),
-      contact_(communicator, input, global_polylines(initial_solid, initial_fluid.positions.size())),
+      contact_(communicator, input, initial_solid, static_cast<std::int64_t>(initial_fluid.positions.size())),
       rigid_body_(input, initial_fluid),
       maxima_(communicator),
       drop_centre_(initial_fluid.centre),
@@ -182,6 +183,8 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
   const auto [solid_first, solid_last] = share(solid_total_);
   solid_.resize(static_cast<std::size_t>(solid_last - solid_first));
   if (solid_last > solid_first) solid_.owned = {{0, static_cast<std::int32_t>(solid_last - solid_first)}};
+  solids_ = solid_bodies(solid, fluid_total_);
+  std::size_t which = 0;
   for (std::int64_t k = solid_first; k < solid_last; ++k) {
     const auto row = static_cast<std::size_t>(k - solid_first), source = static_cast<std::size_t>(k);
     solid_.id[row] = fluid_total_ + k;
@@ -190,7 +193,15 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
     solid_.reference_position.set(row, solid.positions[source]);
     solid_.position.set(row, solid.positions[source]);
     solid_.staggered_velocity.set(row, solid.velocities[source]);
-    solid_.staggered_density[row] = case_.solid.density;
+    while (solids_[which].end <= fluid_total_ + k) ++which;
+    // Of what is rigid the sums would make a pressure out of another density.
+    const Case::Solid& mine = case_.solid_at(which);
+    solid_.staggered_density[row] = mine.is_elastic() ? mine.density : case_.first_elastic_solid().density;
+  }
+  supports_ = PointSupports(solid, fluid_total_);
+  for (const InitialSolid::Body& body : solid.bodies) {
+    probes_of_solids_.emplace_back();
+    for (const std::int32_t index : body.deflection_probe) probes_of_solids_.back().push_back(fluid_total_ + index);
   }
   for (const std::int32_t index : solid.deflection_probe) deflection_probe_.push_back(fluid_total_ + index);
   for (const std::int32_t index : solid.middle_probe) middle_probe_.push_back(fluid_total_ + index);
@@ -334,7 +345,13 @@ void Simulation::evaluate() {
   if (has_density_diffusion()) account_for_density_diffusion();
   if (shifting_.is_due(step_)) find_shift(std::sqrt(squared_liquid_speed_now));
   if (rigid_body_.is_enabled()) add_forces_on_rigid_body();
-  if (parameters_.damping_rate > 0) add_mass_proportional_damping(solid_, parameters_.damping_rate);
+  damp_solids();
+}
+
+void Simulation::damp_solids() {
+  for (const SolidIds& ids : solids_)
+    if (const double rate = parameters_.damping_rate[ids.solid]; rate > 0)
+      for_each_owned_of(solid_, ids, [&](std::size_t row) { add_mass_proportional_damping(solid_, row, rate); });
 }
 
 void Simulation::move(double request) {
@@ -343,6 +360,7 @@ void Simulation::move(double request) {
   shifting_.apply(fluid_);
   MotionMaxima fluid = rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit)
                                                 : kick_and_drift(fluid_, steps_, limit, boxes_wanted());
+  supports_.stop(solid_);
   const MotionMaxima solid = has_substeps() ? move_solid_in_substeps(limit) : solid_step_->move(solid_, steps_, limit);
   time_ += steps_.next;
   ++step_;

@@ -18,9 +18,11 @@
 #include "simulation/distribution.hpp"
 #include "simulation/gauge_pressure_step.hpp"
 #include "simulation/phase_timer.hpp"
+#include "simulation/point_supports.hpp"
 #include "simulation/rigid_body_step.hpp"
 #include "simulation/saved_simulation.hpp"
 #include "simulation/shifting_step.hpp"
+#include "simulation/solid_bodies.hpp"
 #include "simulation/solid_step.hpp"
 #include "simulation/surface_tension_step.hpp"
 #include "solid/hypoelastic/hypoelastic_sweep.hpp"
@@ -45,7 +47,7 @@ struct DerivedParameters {
   AnyFluidPairParameters fluid_pair;
   HypoelasticParameters solid;
   TimeStepLimits time_step;
-  double damping_rate;  ///< of the solid, in proportion to mass, 1/s
+  std::vector<double> damping_rate;  ///< [solids] in proportion to mass, 1/s
 };
 
 /// A run, step by step: evaluate() brings everything to the present instant, move() goes on to the next. All calls are
@@ -100,6 +102,10 @@ class Simulation {
   const std::vector<std::int64_t>& deflection_probe() const { return deflection_probe_; }
   /// Those of the beam's mid-span section.
   const std::vector<std::int64_t>& middle_probe() const { return middle_probe_; }
+  /// Those of deflection of each solid of several; empty where there is one.
+  const std::vector<std::vector<std::int64_t>>& probes_of_solids() const { return probes_of_solids_; }
+  /// The solids among the particles.
+  const std::vector<SolidIds>& solids() const { return solids_; }
   std::int64_t fluid_total() const { return fluid_total_; }
   std::int64_t solid_total() const { return solid_total_; }
   std::int64_t redistributions() const { return redistributions_; }
@@ -139,6 +145,7 @@ class Simulation {
   MotionMaxima move_solid_in_substeps(double speed_limit);
   void evaluate_solid(double previous_step);
   void add_gravity(ParticleSet& set, VectorField& acceleration) const;
+  void damp_solids();
   void add_forces_on_rigid_body();
 
   const Communicator& communicator_;
@@ -148,6 +155,9 @@ class Simulation {
   SolidParticles solid_;
   std::int64_t fluid_total_ = 0, solid_total_ = 0;
   std::vector<std::int64_t> deflection_probe_, middle_probe_;
+  std::vector<std::vector<std::int64_t>> probes_of_solids_;
+  std::vector<SolidIds> solids_;
+  PointSupports supports_;
   Vector box_low_, box_high_;  // a particle beyond is lost
 
   std::unique_ptr<SolidStep> solid_step_;

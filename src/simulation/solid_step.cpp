@@ -11,14 +11,15 @@ namespace sphdrop {
 
 std::unique_ptr<SolidStep> make_solid_step(const Case& input, const HypoelasticParameters& parameters,
                                            const InitialSolid& initial, std::int64_t first_id) {
+  const auto has_elastic = [&](SolidFormulation formulation) {
+    return input.any_solid([&](const Case::Solid& one) { return one.is_elastic() && one.formulation == formulation; });
+  };
+  if (has_elastic(SolidFormulation::total_lagrangian))
+    return std::make_unique<TotalLagrangianStep>(input, parameters.material, parameters.pair.kernel, initial, first_id);
   // A wall has no stress to compute, whatever the formulation.
-  const bool is_beam = input.solid.kind == SolidKind::cantilever || input.solid.kind == SolidKind::fixed_fixed_beam;
-  if (!is_beam || input.solid.formulation == SolidFormulation::hypoelastic)
-    return std::make_unique<HypoelasticStep>(input, parameters);
-  if (input.solid.formulation == SolidFormulation::total_lagrangian)
-    return std::make_unique<TotalLagrangianStep>(input, parameters.material, parameters.pair.kernel);
+  if (!has_elastic(SolidFormulation::cells)) return std::make_unique<HypoelasticStep>(input, parameters);
   try {
-    return std::make_unique<CellStep>(input, parameters.material, initial, first_id);
+    return std::make_unique<CellStep>(input, initial, first_id);
   } catch (const std::invalid_argument& error) {
     throw SetupError(error.what());
   }

@@ -14,11 +14,13 @@ MotionMaxima Simulation::move_solid_in_substeps(double speed_limit) {
   const auto substeps = static_cast<double>(case_.time.solid_substeps);
   StepLengths lengths{steps_.previous / substeps, steps_.next / substeps};
   contact_.kick_solid(solid_, steps_.kick());
+  supports_.stop(solid_);
   MotionMaxima maxima = solid_step_->move(solid_, lengths, speed_limit);
   for (std::int64_t substep = 1; substep < case_.time.solid_substeps; ++substep) {
     timer_.lap(Phase::update);
     lengths.previous = lengths.next;
     evaluate_solid(lengths.previous);
+    supports_.stop(solid_);
     if (!inversion_) inversion_ = solid_step_->inversion(solid_);
     const MotionMaxima present = solid_step_->move(solid_, lengths, speed_limit);
     maxima.squared_speed = std::max(maxima.squared_speed, present.squared_speed);
@@ -41,7 +43,7 @@ void Simulation::evaluate_solid(double previous_step) {
   solid_step_->sweep_rest(solid_, distribution_);
   timer_.lap(Phase::solid_sweep);
   if (!is_relaxing()) add_gravity(solid_, solid_.acceleration);
-  if (parameters_.damping_rate > 0) add_mass_proportional_damping(solid_, parameters_.damping_rate);
+  damp_solids();
 }
 
 }  // namespace sphdrop

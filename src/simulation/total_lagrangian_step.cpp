@@ -8,17 +8,24 @@ namespace {
 
 AnyTotalLagrangianMaterial material_of(const Case& input, const ElasticMaterial& material) {
   const LameModuli moduli(material);
-  if (input.solid.material_law == MaterialLaw::neo_hookean)
-    return TotalLagrangianMaterial<NeoHookean>{{moduli}, material.density, input.solid.viscous_time};
-  return TotalLagrangianMaterial<StVenantKirchhoff>{{moduli}, material.density, input.solid.viscous_time};
+  const Case::Solid& solid = input.first_elastic_solid();
+  if (solid.material_law == MaterialLaw::neo_hookean)
+    return TotalLagrangianMaterial<NeoHookean>{{moduli}, material.density, solid.viscous_time};
+  return TotalLagrangianMaterial<StVenantKirchhoff>{{moduli}, material.density, solid.viscous_time};
 }
 
 }  // namespace
 
-TotalLagrangianStep::TotalLagrangianStep(const Case& input, const ElasticMaterial& material, const CubicSpline& kernel)
+TotalLagrangianStep::TotalLagrangianStep(const Case& input, const ElasticMaterial& material, const CubicSpline& kernel,
+                                         const InitialSolid& initial, std::int64_t first_id)
     : sweep_(material_of(input, material), kernel),
-      is_viscous_(input.solid.viscous_time > 0),
-      is_damped_(is_viscous_ || input.solid.damping_rate > 0 || input.solid.damping_ratio > 0) {}
+      is_viscous_(input.any_solid([](const Case::Solid& one) { return one.is_elastic() && one.viscous_time > 0; })),
+      is_damped_(is_viscous_ || input.any_solid([](const Case::Solid& one) {
+        return one.is_elastic() && (one.damping_rate > 0 || one.damping_ratio > 0);
+      })) {
+  for (const SolidIds& ids : solid_bodies(initial, first_id))
+    if (!input.solid_at(ids.solid).is_elastic()) rigid_.push_back(ids);
+}
 
 std::vector<Column<double>*> TotalLagrangianStep::ghosted(SolidParticles& solid) const {
   std::vector<Column<double>*> columns{&solid.position.x, &solid.position.y};
@@ -27,7 +34,12 @@ std::vector<Column<double>*> TotalLagrangianStep::ghosted(SolidParticles& solid)
 }
 
 void TotalLagrangianStep::relist(SolidParticles& solid, const Distribution&) {
-  sweep_.relist(solid);
+  // The particles of a line have no gradient across it.
+  std::vector<char> is_rigid(solid.size(), 0);
+  for (std::size_t row = 0; row < solid.size(); ++row)
+    for (const SolidIds& ids : rigid_)
+      if (solid.id[row] >= ids.begin && solid.id[row] < ids.end) is_rigid[row] = 1;
+  sweep_.relist(solid, is_rigid);
 }
 
 void TotalLagrangianStep::predict(SolidParticles& solid, double previous_step) {

@@ -1,6 +1,7 @@
 #pragma once
 // The total-Lagrangian solid in a step.
 
+#include "simulation/solid_bodies.hpp"
 #include "simulation/solid_step.hpp"
 #include "solid/total_lagrangian/total_lagrangian_sweep.hpp"
 
@@ -8,7 +9,8 @@ namespace sphdrop {
 
 class TotalLagrangianStep : public SolidStep {
  public:
-  TotalLagrangianStep(const Case& input, const ElasticMaterial& material, const CubicSpline& kernel);
+  TotalLagrangianStep(const Case& input, const ElasticMaterial& material, const CubicSpline& kernel,
+                      const InitialSolid& initial, std::int64_t first_id);
 
   bool is_total_lagrangian() const override { return true; }
   double reach() const override { return sweep_.reach(); }
@@ -23,6 +25,7 @@ class TotalLagrangianStep : public SolidStep {
   std::optional<Inversion> inversion(const SolidParticles& solid) const override;
 
  private:
+  std::vector<SolidIds> rigid_;
   TotalLagrangianSweep sweep_;
   bool is_viscous_, is_damped_;
 };

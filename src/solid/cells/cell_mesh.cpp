@@ -29,8 +29,12 @@ CellMesh::CellMesh(const ParticleSet& particles, const LatticeCells& lattice, st
   };
   const auto is_followed = [&](std::int32_t row) { return row + 1 < size && id(row + 1) == id(row) + 1; };
 
+  const auto is_of_lattice = [&](std::int32_t row) {
+    return id(row) >= first_id && id(row) < first_id + static_cast<std::int64_t>(lattice.particle_count());
+  };
   for (std::int32_t row = 0; row < size; ++row) {
     const auto k = static_cast<std::int32_t>(id(row) - first_id);
+    if (!is_of_lattice(row)) continue;
     const CellShape<double>* shape = lattice.shape(k);
     if (shape == nullptr || !is_followed(row)) continue;
     const std::int32_t east = row_of(lattice.east_of(k));
@@ -60,6 +64,7 @@ CellMesh::CellMesh(const ParticleSet& particles, const LatticeCells& lattice, st
 
   particles.for_each_owned([&](std::size_t r) {
     const auto row = static_cast<std::int32_t>(r);
+    if (!is_of_lattice(row)) return;
     const std::int32_t west_row = row_of(lattice.west_of(static_cast<std::int32_t>(id(row) - first_id)));
     const std::int32_t west = west_row < 0 ? 0 : row - west_row;
     if (!particle_runs_.empty() && particle_runs_.back().end == row && particle_runs_.back().west == west)

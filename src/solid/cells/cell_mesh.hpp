@@ -28,8 +28,8 @@ class CellMesh {
   };
 
   CellMesh() = default;
-  /// `particles` sorted by id, with ghosts one lattice diagonal about the owned ones; `first_id` is the id of the
-  /// lattice's particle 0.
+  /// `particles` sorted by id, of this body and perhaps of others, with ghosts one lattice diagonal about the owned
+  /// ones; `first_id` is the id of the lattice's particle 0.
   CellMesh(const ParticleSet& particles, const LatticeCells& lattice, std::int64_t first_id);
 
   const std::vector<CellRun>& cell_runs() const { return cell_runs_; }

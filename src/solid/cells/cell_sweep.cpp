@@ -43,24 +43,39 @@ template <class T>
           load_as<T>(columns[6] + row)};
 }
 
+template <class T>
+[[gnu::always_inline]] inline PlaneVector<T> turned(const PlaneVector<T>& a, double cosine, double sine) {
+  return {T(cosine) * a.x - T(sine) * a.y, T(sine) * a.x + T(cosine) * a.y};
+}
+
+template <class T>
+[[gnu::always_inline]] inline CellCorners<T> turned(const CellCorners<T>& a, double cosine, double sine) {
+  return {turned(a.sw, cosine, sine), turned(a.se, cosine, sine), turned(a.nw, cosine, sine),
+          turned(a.ne, cosine, sine)};
+}
+
 /// The cells of `row` ... `row + width of T`; returns area times J.
-template <bool is_damped, class T, class Law>
-[[gnu::always_inline]] inline T compute_cells(const CellMaterial<Law>& material, double inverse_spacing,
-                                              const std::array<const double*, 7>& shapes, const double* x,
-                                              const double* y, const double* velocity_x, const double* velocity_y,
-                                              std::int32_t east, std::int32_t row, const std::array<double*, 8>& force,
-                                              double* heating) {
+template <bool is_damped, bool is_turned, class T, class Law>
+[[gnu::always_inline]] inline T compute_cells(const CellMaterial<Law>& material, const LatticeTurn& turn,
+                                              double inverse_spacing, const std::array<const double*, 7>& shapes,
+                                              const double* x, const double* y, const double* velocity_x,
+                                              const double* velocity_y, std::int32_t east, std::int32_t row,
+                                              const std::array<double*, 8>& force, double* heating) {
   const CellShape<T> shape = load_shape<T>(shapes, row);
-  const CellStrain<T> strain = cell_strain(shape, load_corners<T>(x, y, row, east), inverse_spacing);
+  CellCorners<T> places = load_corners<T>(x, y, row, east);
+  if constexpr (is_turned) places = turned(places, turn.cosine, -turn.sine);
+  const CellStrain<T> strain = cell_strain(shape, places, inverse_spacing);
   CellCorners<T> forces;
   if constexpr (is_damped) {
-    const CellStrain<T> rate =
-        cell_strain_rate(shape, strain, load_corners<T>(velocity_x, velocity_y, row, east), inverse_spacing);
+    CellCorners<T> velocities = load_corners<T>(velocity_x, velocity_y, row, east);
+    if constexpr (is_turned) velocities = turned(velocities, turn.cosine, -turn.sine);
+    const CellStrain<T> rate = cell_strain_rate(shape, strain, velocities, inverse_spacing);
     forces = damped_forces(material, shape, strain, rate);
     store_as(cell_heating(material, shape, strain, rate), heating + row);
   } else {
     forces = elastic_forces(material, shape, strain);
   }
+  if constexpr (is_turned) forces = turned(forces, turn.cosine, turn.sine);
   store_as(forces.sw.x, force[0] + row);
   store_as(forces.sw.y, force[1] + row);
   store_as(forces.se.x, force[2] + row);
@@ -79,9 +94,20 @@ std::array<const double*, 7> pointers(const std::array<Column<double>, 7>& colum
 }
 
 CellStrain<double> strain_of(const CellMesh& mesh, const SolidParticles& s, const CellMesh::CellRun& run,
-                             std::int32_t row, double spacing) {
-  return cell_strain(mesh.shape(row), load_corners<double>(s.position.x.data(), s.position.y.data(), row, run.east),
-                     1.0 / spacing);
+                             std::int32_t row, double spacing, const LatticeTurn& turn) {
+  CellCorners<double> places = load_corners<double>(s.position.x.data(), s.position.y.data(), row, run.east);
+  if (!turn.is_none()) places = turned(places, turn.cosine, -turn.sine);
+  return cell_strain(mesh.shape(row), places, 1.0 / spacing);
+}
+
+CauchyStress turned(const CauchyStress& s, const LatticeTurn& turn) {
+  if (turn.is_none()) return s;
+  const double c = turn.cosine, z = turn.sine;
+  CauchyStress result = s;
+  result.xx = c * c * s.xx - 2.0 * c * z * s.xy + z * z * s.yy;
+  result.yy = z * z * s.xx + 2.0 * c * z * s.xy + c * c * s.yy;
+  result.xy = c * z * (s.xx - s.yy) + (c * c - z * z) * s.xy;
+  return result;
 }
 
 }  // namespace
@@ -120,24 +146,32 @@ void CellSweep::sweep_runs(const CellMaterial<Law>& m, const SolidParticles& s, 
   const double *x = s.position.x.data(), *y = s.position.y.data();
   const double *u = s.velocity.x.data(), *v = s.velocity.y.data();
   double least = 0;
-  const auto compute = [&]<bool is_damped>() __attribute__((always_inline)) {
+  const LatticeTurn turn = turn_;
+  const auto compute = [&]<bool is_damped, bool is_turned>() __attribute__((always_inline)) {
     Pack least_of_lanes(0.0);
     for (const CellMesh::CellRun& run : mesh_.cell_runs()) {
       if (run.needs_ghosts != (which == Cells::with_ghosts)) continue;
       std::int32_t row = run.begin;
       for (; row + pack_size <= run.end; row += pack_size)
-        least_of_lanes = min(least_of_lanes, compute_cells<is_damped, Pack>(material, inverse_spacing, shapes, x, y, u,
-                                                                            v, run.east, row, force, heating));
+        least_of_lanes =
+            min(least_of_lanes, compute_cells<is_damped, is_turned, Pack>(material, turn, inverse_spacing, shapes, x, y,
+                                                                          u, v, run.east, row, force, heating));
       for (; row < run.end; ++row)
-        least = std::min(least, compute_cells<is_damped, double>(material, inverse_spacing, shapes, x, y, u, v,
-                                                                 run.east, row, force, heating));
+        least = std::min(least, compute_cells<is_damped, is_turned, double>(material, turn, inverse_spacing, shapes, x,
+                                                                            y, u, v, run.east, row, force, heating));
     }
     least = std::min(least, hmin(least_of_lanes));
   };
-  if (material.damping_time > 0)
-    compute.template operator()<true>();
+  const auto compute_damped = [&]<bool is_turned>() __attribute__((always_inline)) {
+    if (material.damping_time > 0)
+      compute.template operator()<true, is_turned>();
+    else
+      compute.template operator()<false, is_turned>();
+  };
+  if (turn.is_none())
+    compute_damped.template operator()<false>();
   else
-    compute.template operator()<false>();
+    compute_damped.template operator()<true>();
   if (which == Cells::without_ghosts) inverted_.reset();
   if (least < 0) look_for_inverted(s, which);
 }
@@ -147,7 +181,7 @@ void CellSweep::look_for_inverted(const SolidParticles& s, Cells which) {
     if (run.needs_ghosts != (which == Cells::with_ghosts)) continue;
     for (std::int32_t row = run.begin; row < run.end; ++row) {
       if (!mesh_.is_cell(row)) continue;
-      const double j = determinant(strain_of(mesh_, s, run, row, spacing()).gradient);
+      const double j = determinant(strain_of(mesh_, s, run, row, spacing(), turn_).gradient);
       if (j < 0 && (!inverted_ || row < inverted_->row)) inverted_ = Inverted{row, j};
     }
   }
@@ -192,7 +226,7 @@ double CellSweep::energy(const SolidParticles& s, std::int32_t row) const {
   const CellMesh::CellRun& run = *(after - 1);
   return std::visit(
       [&](const auto& material) {
-        return cell_energy(material, mesh_.shape(row), strain_of(mesh_, s, run, row, material.spacing));
+        return cell_energy(material, mesh_.shape(row), strain_of(mesh_, s, run, row, material.spacing, turn_));
       },
       material_);
 }
@@ -209,8 +243,9 @@ void CellSweep::complete(SolidParticles& s, double reference_density) const {
         for (const CellMesh::CellRun& run : mesh_.cell_runs())
           for (std::int32_t row = run.begin; row < run.end; ++row) {
             if (!mesh_.is_cell(row)) continue;
-            const PlaneTensor<double> f = strain_of(mesh_, s, run, row, material.spacing).gradient;
-            contents[static_cast<std::size_t>(row)] = {cauchy_stress(material.law, f), determinant(f), true};
+            const PlaneTensor<double> f = strain_of(mesh_, s, run, row, material.spacing, turn_).gradient;
+            contents[static_cast<std::size_t>(row)] = {turned(cauchy_stress(material.law, f), turn_), determinant(f),
+                                                       true};
           }
       },
       material_);

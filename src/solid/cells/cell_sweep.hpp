@@ -13,10 +13,17 @@ namespace sphdrop {
 
 using AnyCellMaterial = std::variant<CellMaterial<StVenantKirchhoff>, CellMaterial<NeoHookean>>;
 
+/// How the lattice lies in the plane: its rows along (cosine, sine). Cells are computed in its frame.
+struct LatticeTurn {
+  double cosine = 1, sine = 0;
+
+  bool is_none() const { return sine == 0 && cosine == 1; }
+};
+
 /// In a step: sweep() of the cells without ghosts, then of those with, then accelerate().
 class CellSweep {
  public:
-  explicit CellSweep(const AnyCellMaterial& material) : material_(material) {}
+  explicit CellSweep(const AnyCellMaterial& material, LatticeTurn turn = {}) : material_(material), turn_(turn) {}
 
   /// After every change of the rows.
   void set_mesh(CellMesh mesh);
@@ -51,6 +58,7 @@ class CellSweep {
   void look_for_inverted(const SolidParticles& solid, Cells which);
 
   AnyCellMaterial material_;
+  LatticeTurn turn_;
   CellMesh mesh_;
   // By row of the cell: x and y of the forces on the corners sw, se, nw, ne; heating.
   std::array<Column<double>, 8> force_;

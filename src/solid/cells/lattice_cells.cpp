@@ -50,12 +50,21 @@ struct Body {
     second_x += share * quadrant * (x * x + own_moment);
     second_y += share * quadrant * (y * y + own_moment);
   }
+  /// `part` lies about a place at (x, y) from the middle.
+  void add_part(double share, const PlaneMoments& part, double x, double y) {
+    const PlaneMoments moved = moments_about(part, -x, -y);
+    area += share * moved.area;
+    first_x += share * moved.first_x;
+    first_y += share * moved.first_y;
+    second_x += share * moved.second_x;
+    second_y += share * moved.second_y;
+  }
 };
 
 }  // namespace
 
 LatticeCells::LatticeCells(std::span<const Vector> positions, std::span<const char> is_held, double spacing,
-                           bool held_at_edge) {
+                           bool held_at_edge, std::span<const std::array<PlaneMoments, 4>> quadrants) {
   const std::vector<Place> places = lattice_places(positions, spacing);
   const auto count = static_cast<std::int32_t>(places.size());
   const auto place = [&](std::int32_t k) { return places[static_cast<std::size_t>(k)]; };
@@ -75,8 +84,15 @@ LatticeCells::LatticeCells(std::span<const Vector> positions, std::span<const ch
     west_[static_cast<std::size_t>(east)] = k;
   }
 
+  const auto quadrant_area = [&](std::int32_t k, std::size_t direction) {
+    return quadrants[static_cast<std::size_t>(k)][direction].area;
+  };
   const auto is_cell = [&](std::int32_t k) {
-    return k >= 0 && east_of(k) >= 0 && is_north_of_next(k) && is_north_of_next(east_of(k));
+    if (k < 0 || east_of(k) < 0 || !is_north_of_next(k) || !is_north_of_next(east_of(k))) return false;
+    if (quadrants.empty()) return true;
+    const double between = (quadrant_area(k, ne) + quadrant_area(east_of(k), nw)) +
+                           (quadrant_area(k + 1, se) + quadrant_area(east_of(k) + 1, sw));
+    return between >= 0.25;
   };
   // By their south-west corners: the four cells about a particle, -1 for none.
   const auto cells_about = [&](std::int32_t k) {
@@ -99,6 +115,11 @@ LatticeCells::LatticeCells(std::span<const Vector> positions, std::span<const ch
     // A quadrant's middle from the middle of the cell in direction `of`, of which this particle is the opposite corner.
     const auto give = [&](std::size_t quadrant, std::size_t of, double share) {
       if (cells[of] < 0) return;
+      if (!quadrants.empty()) {
+        bodies[static_cast<std::size_t>(cells[of])].add_part(share, quadrants[static_cast<std::size_t>(k)][quadrant],
+                                                             -0.5 * to_east[of], -0.5 * to_north[of]);
+        return;
+      }
       bodies[static_cast<std::size_t>(cells[of])].add_quadrant(share, 0.25 * to_east[quadrant] - 0.5 * to_east[of],
                                                                0.25 * to_north[quadrant] - 0.5 * to_north[of]);
     };
@@ -134,6 +155,7 @@ LatticeCells::LatticeCells(std::span<const Vector> positions, std::span<const ch
     const int free_x = direction(held_sw, held_nw, held_se, held_ne);
     const int free_y = direction(held_sw, held_se, held_nw, held_ne);
     const Body& body = bodies[static_cast<std::size_t>(k)];
+    if (!quadrants.empty() && body.area < 1e-9) continue;  // the held corners have it all
     const double x = body.first_x / body.area, y = body.first_y / body.area;
     const std::array<double, 7> numbers{body.area,
                                         x - 0.25 * free_x,

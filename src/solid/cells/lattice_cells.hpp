@@ -1,10 +1,12 @@
 #pragma once
 // The cells of a whole body whose particles stand on a square lattice.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "particles/plane_moments.hpp"
 #include "particles/vector.hpp"
 #include "solid/cells/cell.hpp"
 
@@ -22,7 +24,12 @@ class LatticeCells {
   /// for particles that never move. `held_at_edge`: the body ends, and is held, midway between held and free particles,
   /// as in an ideal clamp; otherwise held particles are part of it. Throws std::invalid_argument if the positions are
   /// not such a lattice, or if a particle that is not held belongs to no cell.
-  LatticeCells(std::span<const Vector> positions, std::span<const char> is_held, double spacing, bool held_at_edge);
+  ///
+  /// `quadrants` [particles]: what a particle has to the south-west, south-east, north-west and north-east of it, in
+  /// spacings about it, where that is not a quarter of its square each. A block that has less than a quarter of a
+  /// square among its four particles is no cell then: a slit runs through it.
+  LatticeCells(std::span<const Vector> positions, std::span<const char> is_held, double spacing, bool held_at_edge,
+               std::span<const std::array<PlaneMoments, 4>> quadrants = {});
 
   std::size_t particle_count() const { return east_.size(); }
   std::int64_t cell_count() const { return cell_count_; }

@@ -40,7 +40,7 @@ TotalLagrangianSweep::TotalLagrangianSweep(const AnyTotalLagrangianMaterial& mat
       density_(std::visit([](const auto& m) { return m.density; }, material)),
       is_viscous_(std::visit([](const auto& m) { return m.viscous_time > 0; }, material)) {}
 
-void TotalLagrangianSweep::relist(const SolidParticles& s) {
+void TotalLagrangianSweep::relist(const SolidParticles& s, const std::vector<char>& is_rigid) {
   const Column<double>&x = s.reference_position.x, &y = s.reference_position.y;
   std::vector<char> wanted(s.size(), 0);
   s.for_each_owned([&](std::size_t row) { wanted[row] = 1; });
@@ -59,6 +59,8 @@ void TotalLagrangianSweep::relist(const SolidParticles& s) {
         if (squared_length(away) < support_ * support_) wanted[static_cast<std::size_t>(j)] = 1;
       }
   }
+  for (std::size_t row = 0; row < is_rigid.size(); ++row)
+    if (is_rigid[row] != 0) wanted[row] = 0;
   deformed_ = OffsetNeighbours::build(s, wanted, x, y, support_);
 
   deformed_factors_ = pair_factors(kernel_, s, deformed_);
@@ -69,6 +71,9 @@ void TotalLagrangianSweep::relist(const SolidParticles& s) {
   clear(load_, s.size());
   heating_.resize(0);
   heating_.resize(s.size());
+  // Whether or not a block of deformed rows happens to reach over them.
+  for (std::size_t row = 0; row < is_rigid.size(); ++row)
+    if (is_rigid[row] != 0) gradient_[0][row] = gradient_[3][row] = 1.0;
   // Rows that are not deformed here keep B = 0, hence F = I and no load.
   for (const OffsetNeighbours::Block& block : deformed_.blocks) {
     const std::int32_t* offsets = deformed_.offsets.data() + block.first_offset;

@@ -31,8 +31,9 @@ class TotalLagrangianSweep {
 
   /// How far ghosts must reach, m.
   double reach() const { return 2.0 * support_; }
-  /// After every change of the rows: neighbours in the undeformed body and the moments B.
-  void relist(const SolidParticles& solid);
+  /// After every change of the rows: neighbours in the undeformed body and the moments B. Rows marked in `is_rigid` (as
+  /// many as rows, or none) are never deformed; they must be out of reach of the others.
+  void relist(const SolidParticles& solid, const std::vector<char>& is_rigid = {});
 
   enum class Blocks { without_ghosts, with_ghosts };
   /// F and P B of those blocks.

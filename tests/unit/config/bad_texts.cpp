@@ -27,7 +27,7 @@ std::vector<BadCase> bad_texts() {
       {"brackets without end",
        plus("x = " + std::string(4000, '[') + "\n"),
        {},
-       {{"bad.cfg:1: the file holds 4005 opening brackets"}}},
+       {{"bad.cfg:1: the file holds 4000 opening brackets"}}},
       {"two equal signs",
        with("spacing = ", "spacing = = "),
        {},
@@ -194,8 +194,8 @@ std::vector<BadCase> bad_texts() {
       {"number for a word",
        with("\"cantilever\"", "1"),
        {},
-       {{"bad.cfg:9: solid.kind must be a word in quotes, but is 1; allowed: none, cantilever, fixed_fixed_beam or "
-         "rigid_wall"}}},
+       {{"bad.cfg:9: solid.kind must be a word in quotes, but is 1; allowed: none, cantilever, fixed_fixed_beam, "
+         "rigid_wall, polygon or obstacle"}}},
       {"number for a text", with("\"tip_impact\"", "7"), {}, {{"bad.cfg:1: name must be text in quotes", "7"}}},
       {"number for a vector",
        with("[0, -0.8]", "-0.8"),

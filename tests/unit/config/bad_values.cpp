@@ -79,7 +79,7 @@ std::vector<BadCase> bad_values() {
        with("\"cantilever\"", "\"cantilver\""),
        {},
        {{"bad.cfg:9: solid.kind = \"cantilver\" is not one of the words allowed", "did you mean \"cantilever\"?",
-         "allowed: none, cantilever, fixed_fixed_beam or rigid_wall"}}},
+         "allowed: none, cantilever, fixed_fixed_beam, rigid_wall, polygon or obstacle"}}},
       {"word like no other",
        with("\"cantilever\"", "\"trampoline\""),
        {},

@@ -83,6 +83,8 @@ TEST(ParameterTable, WordsMeanTheirEnumerators) {
   EXPECT_EQ(stored("solid.kind", "cantilever").solid.kind, SolidKind::cantilever);
   EXPECT_EQ(stored("solid.kind", "fixed_fixed_beam").solid.kind, SolidKind::fixed_fixed_beam);
   EXPECT_EQ(stored("solid.kind", "rigid_wall").solid.kind, SolidKind::rigid_wall);
+  EXPECT_EQ(stored("solid.kind", "polygon").solid.kind, SolidKind::polygon);
+  EXPECT_EQ(stored("solid.kind", "obstacle").solid.kind, SolidKind::obstacle);
   EXPECT_EQ(stored("solid.deviatoric_trace", "plane_strain").solid.deviatoric_trace, DeviatoricTrace::plane_strain);
   EXPECT_EQ(stored("solid.deviatoric_trace", "two_dimensional").solid.deviatoric_trace,
             DeviatoricTrace::two_dimensional);
@@ -135,6 +137,14 @@ TomlNode value_number(const Parameter& parameter, int n) {
   } else if (std::holds_alternative<VectorParameter>(parameter.value)) {
     node.kind = TomlNode::Kind::array;
     node.elements = {number(n == 0 ? "1.5" : "2.5"), number(n == 0 ? "3.5" : "4.5")};
+  } else if (std::holds_alternative<PointsParameter>(parameter.value) ||
+             std::holds_alternative<RegionsParameter>(parameter.value)) {
+    TomlNode points, point;
+    points.kind = point.kind = node.kind = TomlNode::Kind::array;
+    point.elements = {number(n == 0 ? "1.5" : "2.5"), number(n == 0 ? "3.5" : "4.5")};
+    points.elements = {point, point};
+    node.elements =
+        std::holds_alternative<PointsParameter>(parameter.value) ? points.elements : std::vector<TomlNode>{points};
   } else {
     node.kind = TomlNode::Kind::string;
     node.text = n == 0 ? "first" : "second";
@@ -173,6 +183,9 @@ TEST(ParameterTable, CoversEveryMemberOfCase) {
         ++words;
       } else if (std::holds_alternative<TextParameter>(parameter.value)) {
         sum += sizeof(std::string);
+      } else if (std::holds_alternative<PointsParameter>(parameter.value) ||
+                 std::holds_alternative<RegionsParameter>(parameter.value)) {
+        sum += sizeof(Points);
       } else {
         sum += std::holds_alternative<VectorParameter>(parameter.value) ? 16 : 8;
       }
@@ -199,8 +212,9 @@ TEST(ParameterTable, CoversEveryMemberOfCase) {
                          sizeof(Case::Solid) + sizeof(Case::Contact) + sizeof(Case::SurfaceTension) +
                          sizeof(Case::Gravity) + sizeof(Case::Output) + sizeof(Case::Checkpoint) +
                          sizeof(Case::Parallel) + sizeof(Case::Safety);
-  // Beside them the name, the mode with its padding, and further drops.
-  EXPECT_EQ(sizeof(Case), sections + sizeof(std::string) + 8 + sizeof(std::vector<Case::Drop>));
+  // Beside them the name, the mode with its padding, and further drops and solids.
+  EXPECT_EQ(sizeof(Case),
+            sections + sizeof(std::string) + 8 + sizeof(std::vector<Case::Drop>) + sizeof(std::vector<Case::Solid>));
 }
 
 TEST(Range, HeedsItsEndsAndRefusesWhatIsNoNumber) {

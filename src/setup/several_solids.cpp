@@ -1,0 +1,144 @@
+#include "setup/several_solids.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "setup/polygon_geometry.hpp"
+#include "setup/setup_error.hpp"
+#include "sph/cell_grid.hpp"
+
+namespace sphdrop {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Minus infinity where the body does not reach there.
+double highest_between(const InitialSolid& body, double left, double right) {
+  double highest = -infinity;
+  if (!body.outline.empty()) {
+    std::vector<Vector> part;
+    clip_in_x(body.outline, left, right, part);
+    for (const Vector& p : part) highest = std::max(highest, p.y);
+    return highest;
+  }
+  for (const Vector& p : body.positions)
+    if (p.x >= left && p.x <= right) highest = body.top;
+  return highest;
+}
+
+template <class T>
+void append(const std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+std::vector<std::int32_t> shifted(const std::vector<std::int32_t>& indices, std::int32_t by) {
+  std::vector<std::int32_t> result;
+  for (const std::int32_t k : indices) result.push_back(k + by);
+  return result;
+}
+
+}  // namespace
+
+void move_body(InitialSolid& body, Vector shift) {
+  if (shift == Vector{}) return;
+  for (Vector& position : body.positions) position += shift;
+  for (Vector& corner : body.outline) corner += shift;
+  body.top += shift.y;
+}
+
+InitialSolid joined_solids(const std::vector<InitialSolid>& solids) {
+  if (solids.size() == 1) return solids.front();
+  InitialSolid all;
+  all.top = -infinity;
+  for (const InitialSolid& one : solids) {
+    const auto first = static_cast<std::int32_t>(all.positions.size());
+    const auto first_vertex = static_cast<std::int32_t>(all.contact_vertices.size());
+    append(one.positions, all.positions);
+    append(one.velocities, all.velocities);
+    append(one.masses, all.masses);
+    append(one.is_fixed, all.is_fixed);
+    for (const auto& polyline : one.contact_polylines) all.contact_polylines.push_back(shifted(polyline, first_vertex));
+    for (ContactVertex vertex : one.contact_vertices) {
+      for (std::int32_t k = 0; k < vertex.count; ++k) vertex.particle[static_cast<std::size_t>(k)] += first;
+      all.contact_vertices.push_back(vertex);
+    }
+    if (one.contact_vertices.empty())
+      for (std::size_t k = 0; k < one.positions.size(); ++k)
+        all.contact_vertices.push_back(ContactVertex::at_particle(first + static_cast<std::int32_t>(k)));
+    append(one.quadrants, all.quadrants);
+    if (one.quadrants.empty()) all.quadrants.resize(all.positions.size());
+    for (const Hold& hold : one.holds) all.holds.push_back({hold.particle + first, hold.in_x, hold.in_y});
+    all.mobile_count += one.mobile_count;
+    all.top = std::max(all.top, one.top);
+    all.bodies.push_back({first, static_cast<std::int32_t>(all.positions.size()), shifted(one.deflection_probe, first),
+                          shifted(one.middle_probe, first)});
+  }
+  all.deflection_probe = all.bodies.front().deflection_probe;
+  all.middle_probe = all.bodies.front().middle_probe;
+  return all;
+}
+
+void refuse_near_solids(const InitialSolid& all, double distance) {
+  if (all.bodies.size() < 2) return;
+  std::vector<double> x, y;
+  for (const Vector& position : all.positions) {
+    x.push_back(position.x);
+    y.push_back(position.y);
+  }
+  const CellGrid grid(x, y, distance);
+  for (std::size_t b = 1; b < all.bodies.size(); ++b)
+    for (std::int32_t i = all.bodies[b].begin; i < all.bodies[b].end; ++i) {
+      const Vector here = all.positions[static_cast<std::size_t>(i)];
+      grid.for_each_near(here, [&](std::int32_t j) {
+        if (j >= all.bodies[b].begin || length(here - all.positions[static_cast<std::size_t>(j)]) >= distance) return;
+        std::size_t other = 0;
+        while (all.bodies[other].end <= j) ++other;
+        throw SetupError(fmt::format(
+            "the solids {} and {} touch or overlap at the start, at x = {:.6g} m, y = {:.6g} m: their particles must "
+            "be "
+            "{:g} m apart, for nothing keeps solids from passing through each other; move one of them (solid.origin)",
+            other + 1, b + 1, here.x, here.y, distance));
+      });
+    }
+}
+
+double height_above_solids(const std::vector<InitialSolid>& solids, const std::vector<Vector>& from_centre,
+                           double centre_x, double gap, double radius) {
+  double lowest = infinity, left = infinity, right = -infinity;
+  for (const Vector& p : from_centre) {
+    lowest = std::min(lowest, p.y);
+    left = std::min(left, centre_x + p.x);
+    right = std::max(right, centre_x + p.x);
+  }
+  if (solids.size() == 1 && solids.front().outline.empty()) return solids.front().top + gap + radius - lowest;
+  const double clearance = gap + radius;
+  double top = -infinity;
+  for (const InitialSolid& one : solids) top = std::max(top, highest_between(one, left, right));
+  if (!(top > -infinity))
+    throw SetupError(fmt::format(
+        "there is no solid below the drop, between x = {:.6g} m and {:.6g} m: move it (drop.centre_x), or give "
+        "drop.placement = \"centre\" and drop.centre_y",
+        left, right));
+  const auto is_free = [&](double y) {
+    return std::all_of(from_centre.begin(), from_centre.end(), [&](const Vector& p) {
+      const Vector place{centre_x + p.x, y + p.y};
+      return std::all_of(solids.begin(), solids.end(), [&](const InitialSolid& one) {
+        if (one.outline.empty())
+          return place.y - clearance >= one.top ||
+                 highest_between(one, place.x - clearance, place.x + clearance) < one.top;
+        return !contains(one.outline, place) && distance_to_border(one.outline, place) >= clearance;
+      });
+    });
+  };
+  // On a slope the highest place below a drop is not the one it meets.
+  double high = top + clearance - lowest, low = high - (right - left);
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (is_free(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+}  // namespace sphdrop
