@@ -47,6 +47,9 @@ class ContactStep {
   /// Adds the accelerations to liquid and boundary rows; collective if the drop is rigid.
   void finish(FluidParticles& fluid, SolidParticles& solid);
 
+  /// By row, of the step last finished: what finish() added to the liquid's accelerations, m/s2; empty without a solid.
+  std::span<const double> acceleration_x() const { return returned_fluid_x_; }
+  std::span<const double> acceleration_y() const { return returned_fluid_y_; }
   /// On every rank, of the step last finished; known only where the drop is rigid, which takes the opposite.
   Load load_on_solid() const { return load_on_solid_; }
 
