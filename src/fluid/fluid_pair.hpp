@@ -55,7 +55,12 @@ template <class Kernel, class Viscosity, class T>
   const T velocity_dot_distance = velocity_x * x + velocity_y * y;
   const T velocity_dot_gradient = velocity_dot_distance * slope;
 
-  rates.density_rate += j.mass * velocity_dot_gradient;  // (9)
+  // With the volume the density's rate is that whose pressure work is the force's, to rounding; (9) leaves what the
+  // densities differ by.
+  if constexpr (Viscosity::takes_volumes)
+    rates.density_rate += i.density * j.volume * velocity_dot_gradient;
+  else
+    rates.density_rate += j.mass * velocity_dot_gradient;  // (9)
   const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, densities, inverse.second);
   // (12): m_j (p_i + p_j)/(rho_i rho_j) = V_j (p_i + p_j)/rho_i
   const T force = (j.volume * (i.pressure + j.pressure) * inverse_density_i + viscous) * slope;

@@ -16,6 +16,8 @@ class FluidParticles : public ParticleSet {
   ScalarField dissipated_energy{*this, "dissipated_energy", "J/m", Role::state, "heat made by viscosity so far"};
   ScalarField correction_energy{*this, "correction_energy", "J/m", Role::state,
                                 "compressive energy added by the density's correction or diffusion so far"};
+  ScalarField shift_energy{*this, "shift_energy", "J/m", Role::state,
+                           "energy of compression and gravity added by shifts so far"};
   VectorField detection_position{*this, "detection_position", "m", Role::state,
                                  "position when the surface was last detected"};
   VectorField body_offset{*this, "body_offset", "m", Role::state,

@@ -46,4 +46,10 @@ constexpr Vector right_normal(Vector a) {
   return {a.y, -a.x};
 }
 
+/// a less its component along b; a itself where b is zero.
+constexpr Vector without_component(Vector a, Vector b) {
+  const double squared = squared_length(b);
+  return squared > 0.0 ? a - (dot(a, b) / squared) * b : a;
+}
+
 }  // namespace sphdrop

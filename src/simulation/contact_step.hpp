@@ -55,6 +55,9 @@ class ContactStep {
   void accelerate_solid(SolidParticles& solid) const;
   void kick_solid(SolidParticles& solid, double kick) const;
 
+  /// By row, of the step last finished: what finish() added to the liquid's accelerations, m/s2; empty without a solid.
+  std::span<const double> acceleration_x() const { return returned_fluid_x_; }
+  std::span<const double> acceleration_y() const { return returned_fluid_y_; }
   /// On every rank, of the step last finished; known only where the drop is rigid, which takes the opposite.
   Load load_on_solid() const { return load_on_solid_; }
 

@@ -87,9 +87,9 @@ void Simulation::account_for_density_diffusion() {
 }
 
 void Simulation::find_shift(double largest_speed) {
-  shifting_.find(fluid_, distribution_, largest_speed, steps_.next);
+  shifting_.find(fluid_, distribution_, contact_, largest_speed, steps_.next);
   energy_of_shift_ = surface_tension_.energy_of_displacement(shifting_.displacement_x(), shifting_.displacement_y(),
-                                                             gauge_.pressure());
+                                                             gauge_.pressure(), contact_);
 }
 
 void Simulation::damp_resting_drop() {
@@ -105,7 +105,7 @@ void Simulation::damp_resting_drop() {
 void Simulation::start_drop() {
   fluid_.for_each_owned([&](std::size_t row) {
     fluid_.staggered_velocity.set(row, drop_velocity(case_, fluid_.position.at(row) - drop_centre_));
-    fluid_.dissipated_energy[row] = fluid_.correction_energy[row] = 0.0;
+    fluid_.dissipated_energy[row] = fluid_.correction_energy[row] = fluid_.shift_energy[row] = 0.0;
   });
   surface_tension_.start_ledger();
   gauge_.start_ledger();

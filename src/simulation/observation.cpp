@@ -31,6 +31,7 @@ enum Sum : std::size_t {
   fluid_compressive,
   fluid_heat,
   fluid_correction,
+  fluid_shift,
   solid_mass_x,
   solid_mass_y,
   solid_momentum_x,
@@ -67,6 +68,7 @@ void add_fluid(const Simulation& simulation, Sums& sums) {
     sums[fluid_compressive].add(m * compressive_energy_per_mass(f.density[row], rest_density, c.fluid.sound_speed));
     sums[fluid_heat].add(f.dissipated_energy[row]);
     sums[fluid_correction].add(f.correction_energy[row]);
+    sums[fluid_shift].add(f.shift_energy[row]);
   });
 }
 
@@ -166,6 +168,7 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     }
     simulation.communicator().broadcast(numbers, tension.owner());
     o.curve_length = numbers[0];
+    o.curve_area = numbers[6];
     o.mean_curvature = numbers[1];
     o.curvature_scatter = numbers[2];
     o.curve_count = numbers[3];
@@ -278,7 +281,7 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.dissipated_solid = sum[solid_heat];
   o.density_correction = sum[fluid_correction];
   o.artificial_stress_work = sum[solid_artificial];
-  o.shifting_work = simulation.shifting().work();
+  o.shifting_work = simulation.shifting().work() + sum[fluid_shift];
   o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.adhesion + o.contact +
             o.gravity + o.gauge;
   o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid + o.dissipated_contact - o.density_correction -

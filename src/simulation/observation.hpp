@@ -24,7 +24,8 @@ struct Observation {
   double drop_centre_x, drop_centre_y, drop_velocity_x, drop_velocity_y;
   double drop_angle, drop_spin;
   double drop_elongation, quarter_centre_x, quarter_centre_y;
-  double mean_pressure, gauge_pressure, curve_length, mean_curvature, curvature_scatter, curve_count, tension_net_force;
+  double mean_pressure, gauge_pressure, curve_length, curve_area, mean_curvature, curvature_scatter, curve_count,
+      tension_net_force;
   double base_width;
   double contact_count, contact_force_x, contact_force_y, contact_impulse_x, contact_impulse_y;
   double contact_angular_impulse;

@@ -28,6 +28,7 @@ std::span<const ObservedQuantity> observed_quantities() {
       {"mean_pressure", "Pa", "mean over the liquid's particles", &O::mean_pressure},
       {"gauge_pressure", "Pa", "reference that the liquid's pressures are counted from", &O::gauge_pressure},
       {"curve_length", "m", "length of the surface curves", &O::curve_length},
+      {"curve_area", "m2", "area of the liquid within the surface curves", &O::curve_area},
       {"mean_curvature", "1/m", "mean over the surface curves, positive where convex", &O::mean_curvature},
       {"curvature_scatter", "1/m", "standard deviation of the curvature", &O::curvature_scatter},
       {"curve_count", "1", "closed surface curves of three nodes or more", &O::curve_count},
@@ -62,7 +63,8 @@ std::span<const ObservedQuantity> observed_quantities() {
        &O::reconnection},
       {"gauge_adjustment", "J/m", "energy of the gauge that came with changes of the gauge pressure, so far",
        &O::gauge_adjustment},
-      {"shifting_work", "J/m", "energy of surface and gauge that shifts have added so far", &O::shifting_work},
+      {"shifting_work", "J/m",
+       "energy of surface, adhesion, gauge, compression and gravity that shifts have added so far", &O::shifting_work},
       {"total", "J/m", "kinetic, elastic, compressive, surface, adhesion, contact, gravity and gauge", &O::total},
       {"unaccounted", "J/m",
        "total + dissipated - density correction - artificial stress - reconnection - gauge adjustment - shifting - "

@@ -1,5 +1,6 @@
 #include "simulation/shifting_step.hpp"
 
+#include "diagnostics/energy.hpp"
 #include "diagnostics/number_reader.hpp"
 
 namespace sphdrop {
@@ -7,31 +8,43 @@ namespace sphdrop {
 ShiftingStep::ShiftingStep(const Case& input, const SmoothingKernel& kernel)
     : is_enabled_(input.drop.is_liquid() && input.fluid.shifting == Switch::on),
       interval_(input.fluid.shifting_interval),
+      rest_density_(input.fluid.density),
+      sound_speed_(input.fluid.sound_speed),
       parameters_{kernel, input.resolution.smoothing_ratio * input.resolution.spacing, input.resolution.spacing} {}
 
-void ShiftingStep::find(const FluidParticles& fluid, const Distribution& distribution, double largest_speed,
-                        double step) {
-  x_.resize(fluid.size());
-  y_.resize(fluid.size());
-  concentration_gradients(fluid, distribution.inner_fluid(), parameters_, x_, y_);
-  concentration_gradients(fluid, distribution.border_fluid(), parameters_, x_, y_);
+void ShiftingStep::find(const FluidParticles& fluid, const Distribution& distribution, const ContactStep& contact,
+                        double largest_speed, double step) {
+  for (auto* column : {&x_, &y_, &concentration_, &returned_}) column->resize(fluid.size());
+  concentration_gradients(fluid, distribution.inner_fluid(), parameters_, x_, y_, concentration_);
+  concentration_gradients(fluid, distribution.border_fluid(), parameters_, x_, y_, concentration_);
   const double duration = static_cast<double>(interval_) * step;
   const TensorField& surface = fluid.surface_orientation;
+  const std::span<const double> force_x = contact.acceleration_x(), force_y = contact.acceleration_y();
   fluid.for_each_owned([&](std::size_t row) {
-    const Vector displacement = shift({x_[row], y_[row]}, largest_speed, duration, parameters_, surface.xx[row],
-                                      surface.xy[row], surface.yy[row]);
+    Vector displacement = shift({x_[row], y_[row]}, largest_speed, duration, parameters_, surface.xx[row],
+                                surface.xy[row], surface.yy[row]);
+    if (!force_x.empty()) displacement = without_component(displacement, {force_x[row], force_y[row]});
     x_[row] = displacement.x;
     y_[row] = displacement.y;
+    // Near the surface the sums lack neighbours.
+    const bool is_within = surface.xx[row] == 0.0 && surface.yy[row] == 0.0;
+    returned_[row] =
+        is_within ? rest_density_ * returned_density(concentration_[row], largest_speed, duration, parameters_) : 0.0;
   });
   is_found_ = true;
 }
 
-void ShiftingStep::apply(FluidParticles& fluid) {
+void ShiftingStep::apply(FluidParticles& fluid, Vector gravity) {
   if (!is_found_) return;
   is_found_ = false;
   fluid.for_each_owned([&](std::size_t row) {
     fluid.position.x[row] += x_[row];
     fluid.position.y[row] += y_[row];
+    const double density = fluid.density[row];
+    fluid.staggered_density[row] += returned_[row];
+    const double compression = compressive_energy_per_mass(density + returned_[row], rest_density_, sound_speed_) -
+                               compressive_energy_per_mass(density, rest_density_, sound_speed_);
+    fluid.shift_energy[row] += fluid.mass[row] * (compression - dot(gravity, {x_[row], y_[row]}));
   });
 }
 

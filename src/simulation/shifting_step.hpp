@@ -6,6 +6,7 @@
 
 #include "config/case.hpp"
 #include "fluid/particle_shifting.hpp"
+#include "simulation/contact_step.hpp"
 #include "simulation/distribution.hpp"
 
 namespace sphdrop {
@@ -19,16 +20,19 @@ class ShiftingStep {
   bool is_enabled() const { return is_enabled_; }
   bool is_due(std::int64_t step) const { return is_enabled_ && step > 0 && step % interval_ == 0; }
 
-  /// The owned rows' displacements; positions of ghosts and surface_orientation must be good. `largest_speed` of the
-  /// liquid in m/s, `step` in s.
-  void find(const FluidParticles& fluid, const Distribution& distribution, double largest_speed, double step);
+  /// The owned rows' displacements; positions of ghosts, surface_orientation and the contact's forces must be good.
+  /// What is along the contact's force is left out: it would do work on the springs. `largest_speed` of the liquid in
+  /// m/s, `step` in s.
+  void find(const FluidParticles& fluid, const Distribution& distribution, const ContactStep& contact,
+            double largest_speed, double step);
   /// By row, after find().
   std::span<const double> displacement_x() const { return x_; }
   std::span<const double> displacement_y() const { return y_; }
-  /// Moves the owned rows, once. Velocities and densities stay as they are.
-  void apply(FluidParticles& fluid);
+  /// Moves the owned rows, once; velocities stay as they are, densities but for what returns the volume. What that adds
+  /// to the energy of compression and gravity (m/s2) goes to shift_energy.
+  void apply(FluidParticles& fluid, Vector gravity);
 
-  /// What shifts have added to the energy of surface and gauge so far, J/m.
+  /// What shifts have added to the energy of surface, adhesion and gauge so far, J/m.
   double work() const { return work_; }
   void add_work(double energy) { work_ += energy; }
   /// Counts it anew.
@@ -41,10 +45,12 @@ class ShiftingStep {
  private:
   bool is_enabled_;
   std::int64_t interval_;
+  double rest_density_, sound_speed_;
   ShiftingParameters parameters_;
   bool is_found_ = false;
   double work_ = 0;
   std::vector<double> x_, y_;  // by row: gradients, then displacements
+  std::vector<double> concentration_, returned_;
 };
 
 }  // namespace sphdrop

@@ -357,7 +357,7 @@ void Simulation::damp_solids() {
 void Simulation::move(double request) {
   const double limit = case_.safety.speed_limit;
   const bool was_relaxing = is_relaxing();
-  shifting_.apply(fluid_);
+  shifting_.apply(fluid_, is_relaxing() ? Vector{} : Vector{case_.gravity.x, case_.gravity.y});
   MotionMaxima fluid = rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit)
                                                 : kick_and_drift(fluid_, steps_, limit, boxes_wanted());
   supports_.stop(solid_);

@@ -310,7 +310,7 @@ void SurfaceTensionStep::finish(FluidParticles& fluid) {
 }
 
 double SurfaceTensionStep::energy_of_displacement(std::span<const double> x, std::span<const double> y,
-                                                  double gauge_pressure) {
+                                                  double gauge_pressure, const ContactStep& contact) {
   displacement_x_.resize(x_.size());
   displacement_y_.resize(y_.size());
   gather_.start_gather(std::array<const void*, 2>{x.data(), y.data()});
@@ -323,7 +323,11 @@ double SurfaceTensionStep::energy_of_displacement(std::span<const double> x, std
     displaced_positions_[k] = node_positions_[k] + Vector{displacement_x_[index], displacement_y_[index]};
   }
   surface_points(curves_, displaced_positions_, spacing_, displaced_points_);
+  const auto base_width = [&](const std::vector<Vector>& points) {
+    return is_wetting_ ? adhesion_.base_width(curves_, points, contact.boundary(), adhesion_parameters_) : 0.0;
+  };
   return coefficient_ * (total_length(curves_, displaced_points_) - total_length(curves_, points_)) -
+         work_of_adhesion() * (base_width(displaced_points_) - base_width(points_)) -
          gauge_pressure * (total_area(curves_, displaced_points_) - total_area(curves_, points_));
 }
 

@@ -68,9 +68,10 @@ class SurfaceTensionStep {
   /// Adds the accelerations to the band's rows.
   void finish(FluidParticles& fluid);
 
-  /// Collective, after work(). What displacing the owned rows by (x, y) (m, by row) adds to the energy of surface and
-  /// gauge, at the owner, J/m; minus infinity at the others.
-  double energy_of_displacement(std::span<const double> x, std::span<const double> y, double gauge_pressure);
+  /// Collective, after work(). What displacing the owned rows by (x, y) (m, by row) adds to the energy of
+  /// surface, adhesion and gauge, at the owner, J/m; minus infinity at the others.
+  double energy_of_displacement(std::span<const double> x, std::span<const double> y, double gauge_pressure,
+                                const ContactStep& contact);
 
   int owner() const { return gather_.owner(); }
   /// Length of curve that came or went at once as the surface was detected anew, so far, m: no force did that work. The

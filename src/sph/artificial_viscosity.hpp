@@ -6,6 +6,7 @@
 namespace sphdrop {
 
 struct ArtificialViscosity {
+  static constexpr bool takes_volumes = false;
   double alpha = 0;             ///< linear coefficient
   double beta = 0;              ///< quadratic coefficient
   double sound_speed = 0;       ///< c, m/s

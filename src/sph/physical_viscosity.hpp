@@ -6,6 +6,7 @@ namespace sphdrop {
 /// Pi_ij = -8 mu/(rho_i rho_j) v_ij.x_ij/(r^2 + 0.01 h^2), on all pairs: -sum_j m_j Pi_ij grad W is mu/rho times the
 /// Laplacian of the velocity in two dimensions. It acts along the line of centres, so that angular momentum is kept.
 struct PhysicalViscosity {
+  static constexpr bool takes_volumes = true;
   double viscosity = 0;         ///< mu, Pa s
   double smoothing_length = 0;  ///< h, m
 

@@ -48,5 +48,34 @@ TEST(MergingDrops, KeepMassAndMomentum) {
   EXPECT_LT(std::abs(last.unaccounted), 0.05 * (first.total - last.total));
 }
 
+// Of a viscosity that ends the swinging in time, the whole is a round drop of both drops' area under its own pressure.
+TEST(MergingDrops, EndAsOneRoundDrop) {
+  const test::WatchedRun run = test::watch(R"(
+mode = "modern"
+[resolution]
+spacing = 0.0714e-3
+[time]
+end = 12e-3
+[fluid]
+viscosity = 0.02
+[[drop]]
+diameter = 0.7e-3
+velocity = [0.1, 0]
+centre_x = 0
+[[drop]]
+diameter = 0.7e-3
+velocity = [-0.1, 0]
+centre_x = 0.8e-3
+)",
+                                           1e-4);
+  const Observation& last = run.last();
+  EXPECT_EQ(last.curve_count, 1);
+  const double radius = std::sqrt(2.0) * 0.35e-3;
+  EXPECT_NEAR(last.drop_width, 2 * radius, 0.03 * 2 * radius);
+  EXPECT_NEAR(last.drop_height, 2 * radius, 0.03 * 2 * radius);
+  EXPECT_NEAR(last.curve_area, std::acos(-1.0) * radius * radius, 0.04 * std::acos(-1.0) * radius * radius);
+  EXPECT_NEAR(run.mean_from(11e-3, &Observation::mean_pressure), 0.072 / radius, 0.03 * 0.072 / radius);
+}
+
 }  // namespace
 }  // namespace sphdrop

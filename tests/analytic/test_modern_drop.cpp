@@ -83,6 +83,25 @@ TEST(ModernDrop, KeepsMomentumWithEverythingOn) {
   EXPECT_GT(run.last().gauge_pressure, 0.0);
 }
 
+// Shifts neither work on the contact's springs, which gave a tenth of the energy, nor let the drop swell.
+TEST(ModernDrop, KeepsItsEnergyAndAreaInAnImpact) {
+  const WatchedRun run = watch(R"(
+mode = "modern"
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 2e-3
+[drop]
+velocity = [0.0, -1.0]
+[solid]
+kind = "rigid_wall"
+)",
+                               2e-5);
+  EXPECT_LT(largest(run, &Observation::unaccounted), 0.02 * run.first().kinetic_fluid);
+  for (const Observation& row : run.rows) EXPECT_NEAR(row.curve_area / run.first().curve_area, 1.0, 0.15) << row.time;
+  EXPECT_GT(run.last().drop_width, 2e-3);
+}
+
 // Before its start the drop hangs still at its place, without weight; then it falls.
 TEST(ModernDrop, StartsAtRestFromItsPlaceAndFallsThen) {
   const WatchedRun run =

@@ -41,5 +41,12 @@ TEST(Vector, NormalsPointToTheSideTheyName) {
   EXPECT_EQ(dot(a, right_normal(a)), 0);
 }
 
+TEST(Vector, HasPartsWithoutAComponent) {
+  const Vector found = without_component({3, -4}, {0, 2});
+  EXPECT_EQ(found, (Vector{3, 0}));
+  EXPECT_NEAR(dot(without_component({3, -4}, {0.5, 2}), {0.5, 2}), 0.0, 1e-15);
+  EXPECT_EQ(without_component({3, -4}, {}), (Vector{3, -4}));
+}
+
 }  // namespace
 }  // namespace sphdrop
