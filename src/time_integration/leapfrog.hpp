@@ -45,9 +45,9 @@ struct DisplacementBox {
 /// What a step does to the fastest and the farthest-moved particle; maxima over owned rows, squared: m2/s2, m2.
 struct MotionMaxima {
   double squared_speed = 0;
-  double squared_displacement = 0;                                   ///< from list_position
-  double squared_detection_displacement = 0;                         ///< from detection_position (liquid)
-  DisplacementBox displacements = {}, detection_displacements = {};  ///< from the same positions (liquid)
+  double squared_displacement = 0;                             ///< from list_position
+  double squared_detection_displacement = 0;                   ///< from detection_position (liquid)
+  DisplacementBox displacements{}, detection_displacements{};  ///< from the same positions (liquid)
   /// A particle is faster than allowed, or its velocity is not a number.
   bool beyond_limit = false;
 };
