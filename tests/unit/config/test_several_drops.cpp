@@ -56,8 +56,9 @@ TEST(SeveralDrops, TheFastestAndLargestCount) {
   EXPECT_GT(read({"drop.velocity=[5, 0]"}).safety.domain_margin, margin);
 }
 
-TEST(SeveralDrops, StayThePapersLiquidInModeModern) {
-  EXPECT_EQ(read({"mode=modern"}).fluid.viscosity_form, ViscosityForm::artificial);
+TEST(SeveralDrops, AreOfTheModernLiquidInModeModernAsOneIs) {
+  EXPECT_EQ(read({"mode=modern"}).fluid.viscosity_form, ViscosityForm::physical);
+  EXPECT_EQ(read({"mode=modern"}).fluid.shifting, Switch::on);
   EXPECT_EQ(read({"mode=modern"}, two_drops.substr(0, two_drops.rfind("[[drop]]"))).fluid.viscosity_form,
             ViscosityForm::physical);
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "fluid/fluid_sweep.hpp"
 #include "tests/support/particle_samples.hpp"
@@ -37,8 +38,25 @@ TEST(PhysicalViscosity, HasTheValuesWorkedOutByHand) {
   const FluidRates<double> rates = rates_of(parameters_with<CubicSpline>(1.0), i, j);
   EXPECT_NEAR(rates.acceleration_x, factor * 0.6, 1e-18);
   EXPECT_NEAR(rates.acceleration_y, factor * 0.8, 1e-18);
-  EXPECT_NEAR(rates.density_rate, 0.3 * (-2 * 0.6 + 1 * 0.8) * slope, 1e-15);
+  EXPECT_NEAR(rates.density_rate, 2.0 * 0.075 * (-2 * 0.6 + 1 * 0.8) * slope, 1e-15);
   EXPECT_NEAR(rates.dissipation_rate, -0.5 * factor * (-2 * 0.6 + 1 * 0.8), 1e-18);
+}
+
+// What the forces take off the motion is compression and heat, however much the densities differ.
+TEST(PhysicalViscosity, PairKeepsItsEnergy) {
+  const FluidState<double> i{0.9, 1.2, -1, 0, 2, 3, 0.7, 0.35};
+  const FluidState<double> j{0, 0, 1, -1, 4, -0.5, 0.3, 0.075};
+  const auto parameters = parameters_with<CubicSpline>(1.0);
+  double power = 0, size = 0;
+  for (const auto& [one, other] : {std::pair(i, j), std::pair(j, i)}) {
+    const FluidRates<double> rates = rates_of(parameters, one, other);
+    const double motion = rates.acceleration_x * one.velocity_x + rates.acceleration_y * one.velocity_y;
+    const double compression = one.pressure / (one.density * one.density) * rates.density_rate;
+    power += one.mass * (motion + compression + rates.dissipation_rate);
+    size += one.mass * std::abs(compression);
+  }
+  EXPECT_GT(size, 0.0);
+  EXPECT_NEAR(power, 0.0, 1e-14 * size);
 }
 
 template <class Kernel>
