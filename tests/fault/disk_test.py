@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from running_program import (  # noqa: E402
     AT_ONCE,
     NO_OUTPUT,
+    WARNING,
     ComparedTest,
     checkpoints,
     interrupted,
@@ -37,7 +38,7 @@ class DiskTest(ComparedTest):
     def assert_goes_on_to_the_same_end(self, *arguments: str) -> None:
         result = self.run_here("--restart", "latest", *arguments, ranks=2)
         self.assertEqual(state_hash(result), self.whole_hash)
-        self.assertNotIn("warning", result.stderr)
+        self.assertNotRegex(result.stderr, WARNING)
         if not arguments:
             self.assert_same_results(results(self.output), self.whole)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import time
@@ -11,7 +12,7 @@ from pathlib import Path
 
 from disk_test import LONGEST_END, DiskTest, held  # also finds the modules in tests/support
 from background_run import BackgroundRun, send
-from running_program import DONE, MISTAKE, hashes_in, results, tell
+from running_program import DONE, MISTAKE, WARNING, hashes_in, results, tell
 
 
 @unittest.skipUnless(os.geteuid() == 0, "only root may mount a small disk")
@@ -74,7 +75,7 @@ class Full(DiskTest):
         for name in others[:3]:
             self.assertRegex(text, rf"warning: the checkpoint out/{name} could not be written: .*No space left on device")
         self.assertEqual(text.count(f"; the run goes on, its last checkpoint is out/{first}"), 3)
-        self.assertEqual(text.count("warning"), 3)
+        self.assertEqual(len(re.findall(WARNING, text)), 3)
         found = results(self.output)
         self.run_here("--set", "output.snapshot_interval=0", "--output", "again")
         expected = results(self.directory / "again")

@@ -77,6 +77,10 @@ def interrupted(call: str, file: str = "", *, by: int, number: int | str = 0, ra
                      INTERRUPT_NUMBER=number, INTERRUPT_RANK=rank, INTERRUPT_WAIT=wait)
 
 
+# Of anything but the liquid's Mach number, which the cases here, short of time, heed little.
+WARNING = r"warning: (?!step )"
+
+
 def hashes_in(output: str) -> list[str]:
     return re.findall(r"^state hash ([0-9a-f]{16})$", output, flags=re.MULTILINE)
 
