@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "run/recorded_run.hpp"
 #include "setup/initial_state.hpp"
 #include "simulation/observation.hpp"
+#include "time_integration/due_time.hpp"
 
 namespace sphdrop::v1 {
 
@@ -22,10 +22,6 @@ struct Watching {
   double due;       // s
   Simulation::Observer observer;
 };
-
-double next_multiple(double time, double interval) {
-  return interval * (std::floor(time / interval * (1 + 1e-12)) + 1.0);
-}
 
 }  // namespace
 
@@ -181,12 +177,12 @@ const std::string& Simulation::stopped() const {
   return content_->stopped();
 }
 
-void Simulation::every_step(Observer observer) {
+void Simulation::every_step(const Observer& observer) {
   content_->watching.push_back({0, -std::numeric_limits<double>::infinity(), observer});
   if (!content_->is_over()) content_->call(observer, *this);
 }
 
-void Simulation::every(double interval, Observer observer) {
+void Simulation::every(double interval, const Observer& observer) {
   if (!(interval > 0))
     throw Error(Error::Kind::mistake, fmt::format("an observer's interval is {} s; it must be > 0", interval));
   content_->watching.push_back({interval, time() < 0 ? 0.0 : next_multiple(time(), interval), observer});
@@ -240,10 +236,12 @@ std::vector<double> Simulation::column(Material material, const std::string& nam
   const std::vector<std::int64_t> ids = own_ids(material);
   const std::vector<double> values = own_column(material, name);
   std::vector<Row> mine;
+  mine.reserve(ids.size());
   for (std::size_t k = 0; k < ids.size(); ++k) mine.push_back({ids[k], values[k]});
   std::vector<Row> all = content_->communicator.all_gather(std::span<const Row>(mine));
   std::sort(all.begin(), all.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
   std::vector<double> column;
+  column.reserve(all.size());
   for (const Row& row : all) column.push_back(row.value);
   return column;
 }

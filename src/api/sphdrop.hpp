@@ -112,9 +112,9 @@ class Simulation {
   using Observer = std::function<void(Simulation&)>;
   /// Calls it now and after every step, on all ranks. Observers are called in the order in which they were added; they
   /// may look and communicate but not step. What they throw leaves step().
-  void every_step(Observer observer);
+  void every_step(const Observer& observer);
   /// Calls it now and at the first instant at or after every multiple of `interval`, s; not before t = 0.
-  void every(double interval, Observer observer);
+  void every(double interval, const Observer& observer);
 
   /// A column of history.csv at this instant; NaN for what the case does not have. `unaccounted` counts from the first
   /// call of this.

@@ -91,7 +91,7 @@ Verdict none_among_several(const Case& values) {
   return {};
 }
 
-bool are_alike(Case::Solid a, const Case::Solid& b) {
+bool are_alike(const Case::Solid& a, const Case::Solid& b) {
   return a.density == b.density && a.youngs_modulus == b.youngs_modulus && a.poisson_ratio == b.poisson_ratio &&
          a.material_law == b.material_law && a.deviatoric_trace == b.deviatoric_trace &&
          a.artificial_viscosity_alpha == b.artificial_viscosity_alpha &&

@@ -108,6 +108,7 @@ InitialSolid build_polygon_body(const Case::Solid& solid, double spacing) {
   const auto turned = [](Vector p, Vector by) { return Vector{by.x * p.x - by.y * p.y, by.y * p.x + by.x * p.y}; };
   const std::vector<Vector> outline = counterclockwise_polygon(solid.polygon, spacing);
   std::vector<Vector> polygon;  // in the lattice's frame
+  polygon.reserve(outline.size());
   for (const Vector& corner : outline) polygon.push_back(turned(corner, {rows.x, -rows.y}));
   const LatticeFilling filling = fill_with_lattice(polygon, spacing);
   InitialSolid body;

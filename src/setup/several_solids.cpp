@@ -35,6 +35,7 @@ void append(const std::vector<T>& from, std::vector<T>& to) {
 
 std::vector<std::int32_t> shifted(const std::vector<std::int32_t>& indices, std::int32_t by) {
   std::vector<std::int32_t> result;
+  result.reserve(indices.size());
   for (const std::int32_t k : indices) result.push_back(k + by);
   return result;
 }

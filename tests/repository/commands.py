@@ -31,6 +31,7 @@ TESTED: dict[str, tuple[str, str]] = {
     "/usr/bin/python3 cases/compare.py --level quick": ("cases.compare", "test_everything_is_run_once_and_reported"),
     "/usr/bin/python3 cases/compare.py": ("comparison_short", '"--level", "short"'),
     "/usr/bin/python3 cases/compare.py rigid_wall cantilever/L8_U0.8": ("cases.compare", "test_named_runs_only"),
+    "/usr/bin/python3 cases/compare.py '*/*_modern'": ("cases.compare", '"*/*_modern"'),
     "/usr/bin/python3 cases/compare.py --report-only --update-comparison": ("cases.compare", "--update-comparison"),
     "/usr/bin/python3 cases/cantilever/plot.py results/comparison/paper/cantilever --output results/figures":
         ("cases.compare", "test_plot_runs_alone"),
