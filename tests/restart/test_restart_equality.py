@@ -123,6 +123,7 @@ def what_no_case_has() -> list[Variant]:
         Variant("gravity and damping", QUICKSTART,
                 (COARSE, "gravity.acceleration=[0.5, -9.81]", "solid.damping_rate=20.0", "time.step=2.5e-8")),
         Variant("modern beam", QUICKSTART, (COARSE, "mode='modern'")),
+        Variant("fast beam", QUICKSTART, (COARSE, "mode='fast'")),
         Variant("modern drop on a wall", WALL, ("resolution.spacing=5e-5", "mode='modern'")),
         Variant("total-Lagrangian beam", QUICKSTART, (COARSE, "solid.formulation='total_lagrangian'")),
         Variant("wetted beam", QUICKSTART, (COARSE, "surface_tension.contact_angle=60.0", "contact.wall_drag=1.0")),
