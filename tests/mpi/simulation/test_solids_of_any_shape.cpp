@@ -4,15 +4,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <filesystem>
 
 #include "io/checkpoint.hpp"
-#include "tests/support/whole_state.hpp"
+#include "tests/support/equal_states.hpp"
 
 namespace sphdrop {
 namespace {
 
+using test::expect_equal;
 using test::run_steps;
 using test::WholeState;
 namespace fs = std::filesystem;
@@ -115,31 +115,6 @@ contact_angle = 60.0
 kind = "obstacle"
 polygon = [[-1e-3, -0.5e-3], [1e-3, -0.5e-3], [0.7e-3, 0.2e-3], [-0.6e-3, 0.0]]
 )";
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
-void expect_equal(const Observation& a, const Observation& b, const char* what) {
-  for (const ObservedQuantity& q : observed_quantities())
-    EXPECT_TRUE(same_bits(a.*q.value, b.*q.value))
-        << what << ": " << q.name << ": " << a.*q.value << " and " << b.*q.value;
-  ASSERT_EQ(a.solids.size(), b.solids.size());
-  for (std::size_t k = 0; k < a.solids.size(); ++k)
-    for (const SolidQuantity& q : solid_quantities())
-      EXPECT_TRUE(same_bits(a.solids[k].*q.value, b.solids[k].*q.value))
-          << what << ": " << q.name << " of solid " << k + 1;
-}
-
-void expect_equal(const WholeState& alone, const WholeState& together, const char* what) {
-  EXPECT_EQ(alone.hash, together.hash) << what;
-  ASSERT_EQ(alone.particles.size(), together.particles.size()) << what;
-  for (std::size_t k = 0; k < alone.particles.size(); ++k)
-    ASSERT_EQ(alone.particles[k], together.particles[k]) << what << ": particle " << alone.particles[k].id;
-  ASSERT_EQ(alone.observations.size(), together.observations.size());
-  for (std::size_t k = 0; k < alone.observations.size(); ++k)
-    expect_equal(alone.observations[k], together.observations[k], what);
-}
 
 class ShapeEquality : public testing::TestWithParam<ShapeCase> {};
 
