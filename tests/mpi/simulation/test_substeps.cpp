@@ -111,7 +111,6 @@ TEST(Substeps, KeepMomentum) {
     std::fill(initial.solid.is_fixed.begin(), initial.solid.is_fixed.end(), false);
     Simulation simulation(world, input, initial.fluid, initial.solid);
     const Vector before = momentum(simulation);
-    Vector of_drop;
     for (int k = 0; k < 400; ++k) {
       simulation.evaluate();
       simulation.move();
