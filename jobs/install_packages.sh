@@ -4,10 +4,11 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: jobs/install_packages.sh [--tests] [--list]
+Usage: jobs/install_packages.sh [--packaging] [--tests] [--list]
 Installs the Debian 12 packages needed to build and run sphdrop.
-  --tests  also those needed to build and run the tests
-  --list   only print the packages' names
+  --packaging  also those needed to make a Debian package of it
+  --tests      also those needed to build and run the tests, of which making a package is one
+  --list       only print the packages' names
 TEXT
 }
 
@@ -23,7 +24,8 @@ packages=(
   libmetis-dev libxxhash-dev libeigen3-dev libtoml11-dev libcli11-dev libfmt-dev
   python3 python3-numpy python3-h5py python3-matplotlib
 )
-packages_of_tests=(git libgtest-dev libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy python3-vtk9 iproute2 valgrind)
+packages_of_packaging=(file dpkg-dev)
+packages_of_tests=("${packages_of_packaging[@]}" git libgtest-dev libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy python3-vtk9 iproute2 valgrind)
 # The tests start a Slurm of their own. Where there is one already, perhaps of another origin, nothing is added to it.
 if ! command -v sbatch >/dev/null; then
   packages_of_tests+=(slurmctld slurmd slurm-client munge)
@@ -32,6 +34,7 @@ fi
 list_only=false
 for argument in "$@"; do
   case $argument in
+    --packaging) packages+=("${packages_of_packaging[@]}") ;;
     --tests) packages+=("${packages_of_tests[@]}") ;;
     --list) list_only=true ;;
     --help | -h) usage && exit 0 ;;

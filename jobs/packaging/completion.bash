@@ -6,7 +6,7 @@ _sphdrop() {
     --set)
       # The program itself knows its parameters.
       local parameters
-      parameters=$("${COMP_WORDS[0]}" --list-parameters 2>/dev/null | awk 'NR > 1 { print $1 "=" }')
+      parameters=$("${COMP_WORDS[0]}" --list-parameters 2>/dev/null | awk 'NR > 1 && /^[^ ]/ { print $1 "=" }')
       mapfile -t COMPREPLY < <(compgen -W "$parameters" -- "$current")
       compopt -o nospace
       return ;;

@@ -46,16 +46,14 @@ def options_of(help_text: str) -> list[tuple[str, str]]:
 
 
 def parameters_of(listing: str) -> list[tuple[str, str, str]]:
-    """Key, what it takes and description of every parameter; the listing's columns begin where its header's do."""
-    lines = listing.splitlines()
-    names = ("key", "type", "unit", "default", "allowed", "symbol", "description")
-    starts = [lines[0].index(name) for name in names]
-    rows = []
-    for line in lines[1:]:
-        cells = [line[a:b].strip() for a, b in zip(starts, [*starts[1:], None])]
-        _, kind, unit, default, allowed, _, description = cells
-        rows.append((cells[0], f"{kind}{'' if unit == '-' else ' in ' + unit}, {allowed}; default {default}", description))
-    return rows
+    """Key, what it takes and description of every parameter; what belongs to a key is indented below it, by 4 where a line
+    begins and by 8 where it goes on."""
+    found = []
+    for entry in re.split(r"\n(?=\S)", listing.strip())[1:]:
+        head, description, allowed, default = re.sub(r"\n {8}", " ", entry).split("\n")
+        key, takes = head.split(maxsplit=1)
+        found.append((key, f"{takes}; {allowed.strip()}; {default.strip()}", description.strip()))
+    return found
 
 
 def page(program: str) -> str:

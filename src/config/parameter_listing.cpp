@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <string_view>
 
 #include "config/parameter_table.hpp"
 #include "config/parameter_text.hpp"
@@ -12,10 +12,8 @@
 namespace sphdrop {
 namespace {
 
-constexpr std::size_t column_count = 7;
+constexpr std::size_t column_count = 7, line_width = 100;
 using Row = std::array<std::string, column_count>;
-constexpr std::array<const char*, column_count> headings = {"key",     "type",   "unit",       "default",
-                                                            "allowed", "symbol", "description"};
 
 Row row_of(const Parameter& parameter) {
   return {std::string(parameter.key),        type_text(parameter),
@@ -24,20 +22,31 @@ Row row_of(const Parameter& parameter) {
           std::string(parameter.description)};
 }
 
+/// The words, indented by four, in lines of at most line_width (unless one word is longer), all but the first by eight.
+std::string paragraph(const std::string& words) {
+  std::string text, line = "   ";
+  for (std::size_t begin = 0; begin < words.size();) {
+    const std::size_t end = std::min(words.find(' ', begin), words.size());
+    const std::string_view word = std::string_view(words).substr(begin, end - begin);
+    if (line.size() + 1 + word.size() > line_width) {
+      text += line + "\n";
+      line = "       ";
+    }
+    line += fmt::format(" {}", word);
+    begin = end + 1;
+  }
+  return text + line + "\n";
+}
+
 }  // namespace
 
 std::string list_parameters_text() {
-  std::vector<Row> rows(1);
-  std::copy(headings.begin(), headings.end(), rows[0].begin());
-  for (const Parameter& parameter : parameter_table()) rows.push_back(row_of(parameter));
-  std::array<std::size_t, column_count> widths{};
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < column_count; ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i + 1 < column_count; ++i) text += fmt::format("{:<{}}  ", row[i], widths[i]);
-    text += row.back() + "\n";
+  std::string text = "All parameters of a case: key, what it takes, what it is\n";
+  for (const Parameter& parameter : parameter_table()) {
+    const auto [key, type, unit, by_default, allowed, symbol, description] = row_of(parameter);
+    text += fmt::format("{:<40} {}{}{}\n", key, type, unit == "-" ? "" : ", " + unit,
+                        symbol == "-" ? "" : ", the paper's " + symbol);
+    text += paragraph(description) + paragraph("allowed: " + allowed) + paragraph("default: " + by_default);
   }
   return text;
 }

@@ -67,6 +67,9 @@ std::string check_case(const Communicator& communicator, const Case& c, const In
                       c.time.step > 0     ? ""
                       : c.drop.is_rigid() ? " (Eq 40)"
                                           : " (Eqs 40-42)");
+  if (c.time.solid_substeps > 1)
+    text += fmt::format("sub-steps of solid  {} a step, {:.4g} ns each\n", c.time.solid_substeps,
+                        1e9 * step / static_cast<double>(c.time.solid_substeps));
   text += fmt::format(
       "steps               {:.0f} for {:.6g} ms{}\n", steps, 1e3 * c.time.end,
       c.drop.relaxation_time > 0 ? fmt::format(" and {:.6g} ms of rest before", 1e3 * c.drop.relaxation_time) : "");

@@ -49,7 +49,7 @@ TESTED: dict[str, tuple[str, str]] = {
     "mpirun --host a:8,b:8 -np 16 --mca oob_tcp_keepalive_time 5 --mca oob_tcp_keepalive_intvl 2 --mca oob_tcp_keepalive_probes 2 "
     "build/release/src/sphdrop cases/cantilever/case.cfg --output results/cantilever --restart auto":
         ("cluster.hosts", "oob_tcp_keepalive_time"),
-    'cmake -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
+    'cmake -G Ninja -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
         ("repository.library", "share/sphdrop/cases/probe"),
     "mpirun -np 2 build/probe/probe cases/quickstart/case.cfg results/probe": ("repository.library", "build/probe"),
 }
@@ -61,7 +61,8 @@ NOT_RUN: dict[str, str] = {
     "ctest --preset release": "tests/run.sh does, and this test with it",
     "cmake --preset package && cmake --build --preset package": "a second build of all; another test installs the first one",
     "cmake --install build/package --prefix ~/.local": "repository.packaging installs another build elsewhere",
-    "cd build/package && cpack && apt install ./sphdrop_*.deb": "it changes the machine",
+    "jobs/install_packages.sh --packaging": "it changes the machine; tests/run.sh installs the same with --tests",
+    "cd build/package && cpack && sudo apt install ./sphdrop_*.deb": "it changes the machine; repository.packaging makes the package of another build",
     "pvbatch cases/view/paraview_scene.py results/quickstart --picture scene.png --state scene.pvsm": "ParaView is not among the tests' packages",
     "SPHDROP_LONG_TESTS=1 ctest --preset release --verbose -L 'fault|restart'": "takes most of an hour",
     "python3 tests/fault/checkpoint_cost.py": "a measurement, of which a test could not judge",

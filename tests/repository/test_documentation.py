@@ -42,7 +42,7 @@ def options_of(words: list[str]) -> list[str]:
 
 
 def known_parameters() -> set[str]:
-    return {line.split()[0] for line in program_output("--list-parameters").splitlines()[1:]}
+    return {line.split()[0] for line in program_output("--list-parameters").splitlines()[1:] if not line.startswith(" ")}
 
 
 def values_set(words: list[str]) -> list[str]:

@@ -43,7 +43,7 @@ class Library(unittest.TestCase):
         (cls.folder / "installed").rename(cls.tree)
         cls.case = cls.folder / "little.cfg"
         cls.case.write_text(CASE, encoding="utf-8")
-        told("cmake", "-S", cls.tree / "share/sphdrop/cases/probe", "-B", cls.folder / "build", f"-DCMAKE_PREFIX_PATH={cls.tree}",
+        told("cmake", "-G", "Ninja", "-S", cls.tree / "share/sphdrop/cases/probe", "-B", cls.folder / "build", f"-DCMAKE_PREFIX_PATH={cls.tree}",
              "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", *cls.same_compiler())
         told("cmake", "--build", cls.folder / "build")
 

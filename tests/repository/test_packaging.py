@@ -26,7 +26,8 @@ class InstalledTree(unittest.TestCase):
         installed, cls.tree = Path(folder.name) / "installed", Path(folder.name) / "moved"
         told("cmake", "--install", build_folder(), "--prefix", installed)
         installed.rename(cls.tree)
-        cls.parameters = [line.split()[0] for line in told(cls.tree / "bin/sphdrop", "--list-parameters").splitlines()[1:]]
+        cls.parameters = [line.split()[0] for line in told(cls.tree / "bin/sphdrop", "--list-parameters").splitlines()[1:]
+                          if not line.startswith(" ")]
 
     def test_the_program_runs_and_the_scripts_find_it(self) -> None:
         folder = self.tree / "run"
@@ -65,6 +66,18 @@ class InstalledTree(unittest.TestCase):
         self.assertEqual(set(self.completed("--set", "")), {f"{name}=" for name in self.parameters})
         self.assertEqual(self.completed("--rest"), ["--restart"])
         self.assertEqual(self.completed("--restart", "la"), ["latest"])
+
+
+class DebianPackage(unittest.TestCase):
+    def test_has_the_program_and_says_what_it_needs(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            told("cpack", "--config", build_folder() / "CPackConfig.cmake", "-B", folder)
+            (package,) = Path(folder).glob("sphdrop_*.deb")
+            contents, needed = told("dpkg-deb", "--contents", package), told("dpkg-deb", "--field", package, "Depends")
+        for path in ("usr/bin/sphdrop\n", "usr/bin/sphdrop-view ", "usr/share/man/man1/sphdrop.1", "usr/include/sphdrop"):
+            self.assertIn(f" ./{path}", contents)
+        for name in ("libc6", "libfmt9", "libhdf5-openmpi-103", "libmetis5", "libopenmpi3", "openmpi-bin"):
+            self.assertIn(name, needed)
 
 
 class Recipes(unittest.TestCase):

@@ -148,6 +148,8 @@ class Checking(ProgramTest):
             self.assertIn(part, result.stdout)
         self.assertIn("no estimate: it has been fitted for Weber numbers of 3 to 60", run("--check", self.case).stdout)
         self.assertIn("less than the 50 times it", run("--check", self.case).stdout)
+        self.assertNotIn("sub-steps", run("--check", self.case).stdout)
+        self.assertIn("sub-steps of solid  3 a step", run("--check", self.case, "--set", 'mode="fast"').stdout)
 
     def test_questions_are_answered_once(self) -> None:
         for option, part in (("--help", "--check"), ("--version", ", commit "), ("--list-parameters", "drop.diameter")):

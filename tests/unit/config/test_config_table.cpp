@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "config/case_file.hpp"
 #include "config/effective_case.hpp"
@@ -235,14 +237,24 @@ TEST(Listing, MentionsEveryParameterWithAllThatIsKnownOfIt) {
   for (const Parameter& parameter : parameter_table()) {
     const std::size_t begin = text.find("\n" + std::string(parameter.key) + " ");
     ASSERT_NE(begin, std::string::npos) << parameter.key;
-    const std::string line = text.substr(begin + 1, text.find('\n', begin + 1) - begin - 1);
-    for (const std::string& part :
-         {std::string(parameter.unit), std::string(parameter.symbol), std::string(parameter.description),
-          default_text(parameter), allowed_text(parameter), type_text(parameter)}) {
-      EXPECT_NE(line.find(part), std::string::npos) << line << "\nlacks " << part;
+    // Down to the next line that is not indented, its lines taken together again.
+    std::string entry;
+    for (std::size_t at = begin + 1; at < text.size() && !(text[at - 1] == '\n' && text[at] != ' ' && at > begin + 1);
+         ++at)
+      if (!(text[at] == ' ' && entry.ends_with(' '))) entry += text[at] == '\n' ? ' ' : text[at];
+    const std::string unit = parameter.unit == "-" ? "" : std::string(parameter.unit);
+    for (const std::string& part : {unit, std::string(parameter.symbol), std::string(parameter.description),
+                                    default_text(parameter), allowed_text(parameter), type_text(parameter)}) {
+      EXPECT_NE(entry.find(part), std::string::npos) << entry << "\nlacks " << part;
     }
     EXPECT_NE(markdown.find("| `" + std::string(parameter.key) + "` |"), std::string::npos) << parameter.key;
   }
+}
+
+TEST(Listing, FitsATerminal) {
+  std::istringstream lines(list_parameters_text());
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_TRUE(line.size() <= 100 || line.find(' ', 8) == std::string::npos) << line;
 }
 
 TEST(Listing, ShowsDefaultsInTheirOwnTerms) {

@@ -57,7 +57,7 @@ TEST(Polygon, IsReadWithItsUnits) {
 
 TEST(Polygon, IsWrittenSoThatItReadsTheSame) {
   std::string points;
-  for (int k = 0; k < 2000; ++k) points += "[" + std::to_string(k) + "e-5, 0.0],\n";
+  for (int k = 0; k < 2000; ++k) points.append("[").append(std::to_string(k)).append("e-5, 0.0],\n");
   const Case many = read(head + "[solid]\nkind = \"polygon\"\npolygon = [\n" + points + "[1e-3, 1e-3]]\n");
   EXPECT_EQ(many.solid.polygon.size(), 2001U);
   for (const Case& c : {read(leaf), many}) EXPECT_EQ(read(effective_case_text(c)), c);
