@@ -69,7 +69,9 @@ def set_up_of_drop(drop: dict[str, Any], case: dict[str, Any]) -> list[tuple[str
             # The paper's numbers: We with the drop's diameter.
             lines.append(("Weber number", number(density * speed**2 * diameter / tension, digits=3)))
         if float(fluid.get("viscosity", 0)) > 0 and speed > 0 and drop.get("material") != "rigid":
-            lines.append(("Reynolds number", number(density * speed * diameter / fluid["viscosity"], digits=3)))
+            # The artificial viscosity, several times water's, is not in it.
+            by = "" if fluid.get("viscosity_form") == "physical" else " by fluid.viscosity"
+            lines.append(("Reynolds number", number(density * speed * diameter / fluid["viscosity"], digits=3) + by))
     return lines
 
 
