@@ -6,6 +6,7 @@
 #include "particles/solid_particles.hpp"
 #include "solid/elasticity.hpp"
 #include "solid/hypoelastic/hypoelastic_pair.hpp"
+#include "solid/hypoelastic/shared_interactions.hpp"
 #include "sph/offset_neighbours.hpp"
 
 namespace sphdrop {
@@ -31,6 +32,7 @@ class HypoelasticSweep {
 
  private:
   HypoelasticParameters parameters_;
+  mutable SharedInteractions shared_;  // of no meaning between calls
 };
 
 }  // namespace sphdrop
