@@ -40,9 +40,11 @@ template <class T>
 struct InversePair {
   T first, second;
 
-  [[gnu::always_inline]] InversePair(const T& a, const T& b) : first(T(1.0) / (a * b)), second(first * a) {
-    first = first * b;
-  }
+  [[gnu::always_inline]] static T of_product(const T& a, const T& b) { return T(1.0) / (a * b); }
+
+  [[gnu::always_inline]] InversePair(const T& a, const T& b, const T& inverse_product)
+      : first(inverse_product * b), second(inverse_product * a) {}
+  [[gnu::always_inline]] InversePair(const T& a, const T& b) : InversePair(a, b, of_product(a, b)) {}
 };
 
 }  // namespace sphdrop

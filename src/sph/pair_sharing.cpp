@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <span>
 
 #include "particles/pack.hpp"
@@ -45,7 +44,7 @@ class Entries {
   /// The entries that evaluate the pairs of `block` at -offset: rows of one block or of two. None if there is not all.
   std::array<std::int32_t, 2> evaluated_for(const Block& block, std::int32_t offset) const {
     const std::int32_t first = block.first_row - offset;
-    if (first < 0 || offset + 2 * block_size > PairSharing::most_rows) return {none, none};
+    if (first < 0 || offset + block_size > PairSharing::row_choices.back()) return {none, none};
     const std::int32_t low = find(first, offset, block);
     const std::int32_t high = find(first + block_size - 1, offset, block);
     if (low == none || high == none) return {none, none};
@@ -78,8 +77,9 @@ PairSharing PairSharing::plan(const OffsetNeighbours& list) {
     for (const std::int32_t source : sources) is_wanted[static_cast<std::size_t>(source)] = 1;
     furthest = std::max(furthest, offset);
   });
-  if (furthest == 0) return plan;
-  plan.rows = static_cast<std::int32_t>(std::bit_ceil(static_cast<std::uint32_t>(furthest + 2 * block_size)));
+  // What is asked for must not be where the block swept now has written.
+  plan.rows = *std::find_if(row_choices.begin(), row_choices.end(),
+                            [&](std::int32_t rows) { return furthest + block_size <= rows; });
 
   // A slot goes from one offset to another when nobody can ask for its rows any more.
   struct Slot {
@@ -87,6 +87,7 @@ PairSharing PairSharing::plan(const OffsetNeighbours& list) {
   };
   std::vector<Slot> slots;
   for (const Block& block : list.blocks) {
+    plan.first_kept.push_back(static_cast<std::int32_t>(plan.kept.size()));
     const auto offsets = entries.offsets(block);
     for (std::size_t k = 0; k < offsets.size(); ++k) {
       const std::size_t entry = static_cast<std::size_t>(block.first_offset) + k;
@@ -101,8 +102,10 @@ PairSharing PairSharing::plan(const OffsetNeighbours& list) {
       }
       *slot = {offsets[k], block.first_row};
       plan.slots[entry] = static_cast<std::int32_t>(slot - slots.begin());
+      plan.kept.push_back({offsets[k], plan.slots[entry]});
     }
   }
+  plan.first_kept.push_back(static_cast<std::int32_t>(plan.kept.size()));
   plan.slot_count = static_cast<std::int32_t>(slots.size());
 
   for_each_negative([&](std::size_t entry, std::int32_t, std::array<std::int32_t, 2> sources) {

@@ -48,25 +48,48 @@ struct HypoelasticInteraction {
   T artificial_x, artificial_y;  ///< (R_i + R_j) grad_i W
 };
 
+/// How far two particles are apart: the first step of an interaction, which ends with a square root.
+template <class T>
+struct Separation {
+  T x, y, squared_distance, distance;
+
+  [[gnu::always_inline]] Separation(const HypoelasticState<T>& i, const HypoelasticState<T>& j)
+      : x(i.x - j.x), y(i.y - j.y), squared_distance(x * x + y * y) {
+    using std::max;
+    using std::sqrt;
+    distance = sqrt(max(squared_distance, T(1e-60)));
+  }
+};
+
+/// The second step, a division: what the third divides by.
+template <class T>
+struct InverseSeparation : Separation<T> {
+  T density_sum, denominator, inverse_product;
+
+  [[gnu::always_inline]] InverseSeparation(const HypoelasticPairParameters& parameters, const Separation<T>& separation,
+                                           const HypoelasticState<T>& i, const HypoelasticState<T>& j)
+      : Separation<T>(separation),
+        density_sum(i.density + j.density),
+        denominator(parameters.viscosity.denominator(separation.squared_distance, density_sum)),
+        inverse_product(InversePair<T>::of_product(separation.distance, denominator)) {}
+};
+
+/// The third step, products and sums alone.
 template <class T>
 [[gnu::always_inline]] inline HypoelasticInteraction<T> hypoelastic_interaction(
-    const HypoelasticPairParameters& parameters, const HypoelasticState<T>& i, const HypoelasticState<T>& j) {
-  using std::max;
-  using std::sqrt;
+    const HypoelasticPairParameters& parameters, const InverseSeparation<T>& separation, const HypoelasticState<T>& i,
+    const HypoelasticState<T>& j) {
   HypoelasticInteraction<T> pair;
-  const T x = i.x - j.x, y = i.y - j.y;
+  const T &x = separation.x, &y = separation.y, &distance = separation.distance;
+  const InversePair<T> inverse(distance, separation.denominator, separation.inverse_product);
   pair.velocity_x = i.velocity_x - j.velocity_x;
   pair.velocity_y = i.velocity_y - j.velocity_y;
-  const T squared_distance = x * x + y * y;
-  const T distance = sqrt(max(squared_distance, T(1e-60)));
-  const T density_sum = i.density + j.density;
-  const InversePair<T> inverse(distance, parameters.viscosity.denominator(squared_distance, density_sum));
   const T slope = parameters.kernel.slope(distance) * inverse.first;  // grad W = slope x_ij
   pair.gradient_x = slope * x;
   pair.gradient_y = slope * y;
   const T velocity_dot_distance = pair.velocity_x * x + pair.velocity_y * y;
   pair.velocity_dot_gradient = velocity_dot_distance * slope;
-  pair.viscosity = parameters.viscosity(velocity_dot_distance, density_sum, inverse.second);
+  pair.viscosity = parameters.viscosity(velocity_dot_distance, separation.density_sum, inverse.second);
 
   pair.stress = {i.stress.xx + j.stress.xx, i.stress.yy + j.stress.yy, i.stress.xy + j.stress.xy};
 
@@ -127,8 +150,9 @@ template <class T>
 [[gnu::always_inline]] inline void add_hypoelastic_pair(const HypoelasticPairParameters& parameters,
                                                         const HypoelasticState<T>& i, const T& inverse_density_i,
                                                         const HypoelasticState<T>& j, HypoelasticRates<T>& rates) {
-  add_interaction<SeenFrom::first>(hypoelastic_interaction(parameters, i, j), inverse_density_i, j.mass, j.volume,
-                                   rates);
+  const InverseSeparation<T> separation(parameters, Separation<T>(i, j), i, j);
+  add_interaction<SeenFrom::first>(hypoelastic_interaction(parameters, separation, i, j), inverse_density_i, j.mass,
+                                   j.volume, rates);
 }
 
 }  // namespace sphdrop

@@ -2,23 +2,66 @@
 
 #include "particles/pack.hpp"
 #include "solid/hypoelastic/artificial_stress.hpp"
+#include "solid/hypoelastic/shared_interactions.hpp"
 #include "sph/equation_of_state.hpp"
 
 namespace sphdrop {
 
 namespace {
 
-[[gnu::always_inline]] inline HypoelasticState<Pack> load_state(const SolidParticles& s, std::int64_t row) {
-  return {load(s.position.x.data() + row),
-          load(s.position.y.data() + row),
-          load(s.velocity.x.data() + row),
-          load(s.velocity.y.data() + row),
-          load(s.density.data() + row),
-          load(s.mass.data() + row),
-          load(s.volume.data() + row),
-          {load(s.stress.xx.data() + row), load(s.stress.yy.data() + row), load(s.stress.xy.data() + row)},
-          {load(s.artificial_stress.xx.data() + row), load(s.artificial_stress.yy.data() + row),
-           load(s.artificial_stress.xy.data() + row)}};
+// Of the columns that a loop over pairs reads, so that their addresses stay in registers.
+struct Columns {
+  explicit Columns(const SolidParticles& s)
+      : x(s.position.x.data()),
+        y(s.position.y.data()),
+        velocity_x(s.velocity.x.data()),
+        velocity_y(s.velocity.y.data()),
+        density(s.density.data()),
+        mass(s.mass.data()),
+        volume(s.volume.data()),
+        stress_xx(s.stress.xx.data()),
+        stress_yy(s.stress.yy.data()),
+        stress_xy(s.stress.xy.data()),
+        artificial_xx(s.artificial_stress.xx.data()),
+        artificial_yy(s.artificial_stress.yy.data()),
+        artificial_xy(s.artificial_stress.xy.data()) {}
+
+  [[gnu::always_inline]] HypoelasticState<Pack> at(std::int64_t row) const {
+    return {load(x + row),
+            load(y + row),
+            load(velocity_x + row),
+            load(velocity_y + row),
+            load(density + row),
+            load(mass + row),
+            load(volume + row),
+            {load(stress_xx + row), load(stress_yy + row), load(stress_xy + row)},
+            {load(artificial_xx + row), load(artificial_yy + row), load(artificial_xy + row)}};
+  }
+
+  const double *x, *y, *velocity_x, *velocity_y, *density, *mass, *volume, *stress_xx, *stress_yy, *stress_xy,
+      *artificial_xx, *artificial_yy, *artificial_xy;
+};
+
+/// Evaluates what a pack of rows keeps. The steps of an interaction are taken for three pairs at a time, one step each:
+/// the core, which looks only so far ahead, would wait for roots and divisions otherwise.
+template <class Shared>
+void keep_interactions(const HypoelasticPairParameters& shared_parameters, const SolidParticles& s, std::int64_t row,
+                       std::span<const PairSharing::Kept> kept, Shared shared) {
+  if (kept.empty()) return;
+  const HypoelasticPairParameters parameters = shared_parameters;
+  const Columns columns(s);
+  const HypoelasticState<Pack> i = columns.at(row);
+  const auto neighbour = [&](std::size_t k) [[gnu::always_inline]] { return columns.at(row + kept[k].offset); };
+  const std::size_t count = kept.size();
+  Separation<Pack> after_next(i, neighbour(0));
+  InverseSeparation<Pack> next(parameters, after_next, i, neighbour(0));
+  if (count > 1) after_next = Separation<Pack>(i, neighbour(1));
+  for (std::size_t k = 0; k < count; ++k) {
+    const InverseSeparation<Pack> now = next;
+    if (k + 1 < count) next = InverseSeparation<Pack>(parameters, after_next, i, neighbour(k + 1));
+    if (k + 2 < count) after_next = Separation<Pack>(i, neighbour(k + 2));
+    shared.keep(kept[k].slot, row, hypoelastic_interaction(parameters, now, i, neighbour(k)));
+  }
 }
 
 /// The list of a block: offsets, and where their interactions are kept.
@@ -28,20 +71,11 @@ struct Entries {
   std::int32_t count;
 };
 
-// In two loops: evaluating waits for divisions and roots, which follow each other closely where no sums are in the way.
-void keep_interactions(const HypoelasticPairParameters& shared_parameters, const SolidParticles& s, std::int64_t row,
-                       const Entries& entries, SharedInteractions::Places shared) {
-  const HypoelasticPairParameters parameters = shared_parameters;
-  const HypoelasticState<Pack> i = load_state(s, row);
-  for (std::int32_t k = 0; k < entries.count; ++k)
-    if (entries.offsets[k] > 0 && entries.slots[k] != PairSharing::none)
-      shared.keep(entries.slots[k], row,
-                  hypoelastic_interaction(parameters, i, load_state(s, row + entries.offsets[k])));
-}
-
+template <class Shared>
 void set_rates(const HypoelasticParameters& shared_parameters, SolidParticles& s, std::int64_t row,
-               const Entries& entries, SharedInteractions::Places shared) {
+               const Entries& shared_entries, Shared shared) {
   const HypoelasticPairParameters parameters = shared_parameters.pair;
+  const Entries entries = shared_entries;
   const double *mass = s.mass.data(), *volume = s.volume.data();
   const Pack inverse_density = Pack(1.0) / load(s.density.data() + row);
   HypoelasticRates<Pack> rates;
@@ -49,7 +83,7 @@ void set_rates(const HypoelasticParameters& shared_parameters, SolidParticles& s
     const std::int32_t offset = entries.offsets[k], slot = entries.slots[k];
     const std::int64_t j = row + offset;
     if (slot == PairSharing::none)
-      add_hypoelastic_pair(parameters, load_state(s, row), inverse_density, load_state(s, j), rates);
+      add_hypoelastic_pair(parameters, Columns(s).at(row), inverse_density, Columns(s).at(j), rates);
     else if (offset < 0)
       add_interaction<SeenFrom::second>(shared.kept(slot, j), inverse_density, load(mass + j), load(volume + j), rates);
     else
@@ -71,6 +105,28 @@ void set_rates(const HypoelasticParameters& shared_parameters, SolidParticles& s
   store(rates.dissipation_rate, s.dissipation_rate.data() + row);
   store(load(s.velocity.x.data() + row) * rates.artificial_x + load(s.velocity.y.data() + row) * rates.artificial_y,
         s.artificial_stress_power.data() + row);
+}
+
+template <std::int64_t rows>
+void sweep(const HypoelasticParameters& parameters, SolidParticles& s, const OffsetNeighbours& list, bool with_ghosts,
+           Column<double>& values) {
+  using Shared = SharedInteractions<rows>;
+  const PairSharing& sharing = list.sharing;
+  if (values.size() < Shared::size(sharing.slot_count)) values.resize(Shared::size(sharing.slot_count));
+  const Shared shared(values.data());
+  for (std::size_t b = 0; b < list.blocks.size(); ++b) {
+    const OffsetNeighbours::Block& block = list.blocks[b];
+    if (block.needs_ghosts != with_ghosts) continue;
+    const auto kept = std::span(sharing.kept)
+                          .subspan(static_cast<std::size_t>(sharing.first_kept[b]),
+                                   static_cast<std::size_t>(sharing.first_kept[b + 1] - sharing.first_kept[b]));
+    const Entries entries{list.offsets.data() + block.first_offset, sharing.slots.data() + block.first_offset,
+                          block.offsets};
+    for (std::int32_t lane = 0; lane < block_size; lane += pack_size)
+      keep_interactions(parameters.pair, s, block.first_row + lane, kept, shared);
+    for (std::int32_t lane = 0; lane < block_size; lane += pack_size)
+      set_rates(parameters, s, block.first_row + lane, entries, shared);
+  }
 }
 
 }  // namespace
@@ -100,17 +156,14 @@ void HypoelasticSweep::update_stress(SolidParticles& s, std::span<const RowRange
 }
 
 void HypoelasticSweep::apply(SolidParticles& s, const OffsetNeighbours& list, Blocks which) const {
-  shared_.resize(list.sharing);
-  const SharedInteractions::Places shared = shared_.places();
-  for (const OffsetNeighbours::Block& block : list.blocks) {
-    if (block.needs_ghosts != (which == Blocks::with_ghosts)) continue;
-    const Entries entries{list.offsets.data() + block.first_offset, list.sharing.slots.data() + block.first_offset,
-                          block.offsets};
-    for (std::int32_t lane = 0; lane < block_size; lane += pack_size)
-      keep_interactions(parameters_.pair, s, block.first_row + lane, entries, shared);
-    for (std::int32_t lane = 0; lane < block_size; lane += pack_size)
-      set_rates(parameters_, s, block.first_row + lane, entries, shared);
-  }
+  const bool with_ghosts = which == Blocks::with_ghosts;
+  constexpr auto rows = PairSharing::row_choices;
+  if (list.sharing.rows == rows[0])
+    sweep<rows[0]>(parameters_, s, list, with_ghosts, shared_);
+  else if (list.sharing.rows == rows[1])
+    sweep<rows[1]>(parameters_, s, list, with_ghosts, shared_);
+  else
+    sweep<rows[2]>(parameters_, s, list, with_ghosts, shared_);
 }
 
 }  // namespace sphdrop

@@ -6,7 +6,6 @@
 #include "particles/solid_particles.hpp"
 #include "solid/elasticity.hpp"
 #include "solid/hypoelastic/hypoelastic_pair.hpp"
-#include "solid/hypoelastic/shared_interactions.hpp"
 #include "sph/offset_neighbours.hpp"
 
 namespace sphdrop {
@@ -32,7 +31,7 @@ class HypoelasticSweep {
 
  private:
   HypoelasticParameters parameters_;
-  mutable SharedInteractions shared_;  // of no meaning between calls
+  mutable Column<double> shared_;  // interactions, of no meaning between calls
 };
 
 }  // namespace sphdrop
