@@ -29,22 +29,24 @@ struct HypoelasticRates {
   VelocityGradient<T> gradient;  ///< (15, 16), 1/s
 };
 
-struct HypoelasticPairParameters {
+/// What the pair formula is made of: ArtificialViscosity, or the same where beta is zero.
+template <class Viscosity>
+struct HypoelasticPairParametersWith {
   CubicSpline kernel;
-  ArtificialViscosity viscosity;
+  Viscosity viscosity;
   double inverse_kernel_at_spacing = 0;  ///< 1/W(d) of Eq 19, m2
 };
+using HypoelasticPairParameters = HypoelasticPairParametersWith<ArtificialViscosity>;
 
 /// What a pair has in common: seen from the other particle the vectors change their sign and nothing else changes a bit,
-/// so that one evaluation serves both.
+/// so that one evaluation serves both. Differences of velocity and sums of stress are not kept: they cost less than
+/// their place in the cache.
 template <class T>
 struct HypoelasticInteraction {
-  T velocity_x, velocity_y;  ///< v_i - v_j, m/s
   T gradient_x, gradient_y;  ///< grad_i W, 1/m3
   T velocity_dot_gradient;
   T viscosity;  ///< Pi_ij (17), m5/(kg s2)
   T weight;     ///< f^4 of (19)
-  SymmetricTensor<T> stress;  ///< sigma_i + sigma_j, Pa
   T artificial_x, artificial_y;  ///< (R_i + R_j) grad_i W
 };
 
@@ -66,7 +68,8 @@ template <class T>
 struct InverseSeparation : Separation<T> {
   T density_sum, denominator, inverse_product;
 
-  [[gnu::always_inline]] InverseSeparation(const HypoelasticPairParameters& parameters, const Separation<T>& separation,
+  template <class Viscosity>
+  [[gnu::always_inline]] InverseSeparation(const HypoelasticPairParametersWith<Viscosity>& parameters, const Separation<T>& separation,
                                            const HypoelasticState<T>& i, const HypoelasticState<T>& j)
       : Separation<T>(separation),
         density_sum(i.density + j.density),
@@ -75,23 +78,19 @@ struct InverseSeparation : Separation<T> {
 };
 
 /// The third step, products and sums alone.
-template <class T>
+template <class Viscosity, class T>
 [[gnu::always_inline]] inline HypoelasticInteraction<T> hypoelastic_interaction(
-    const HypoelasticPairParameters& parameters, const InverseSeparation<T>& separation, const HypoelasticState<T>& i,
+    const HypoelasticPairParametersWith<Viscosity>& parameters, const InverseSeparation<T>& separation, const HypoelasticState<T>& i,
     const HypoelasticState<T>& j) {
   HypoelasticInteraction<T> pair;
   const T &x = separation.x, &y = separation.y, &distance = separation.distance;
   const InversePair<T> inverse(distance, separation.denominator, separation.inverse_product);
-  pair.velocity_x = i.velocity_x - j.velocity_x;
-  pair.velocity_y = i.velocity_y - j.velocity_y;
   const T slope = parameters.kernel.slope(distance) * inverse.first;  // grad W = slope x_ij
   pair.gradient_x = slope * x;
   pair.gradient_y = slope * y;
-  const T velocity_dot_distance = pair.velocity_x * x + pair.velocity_y * y;
+  const T velocity_dot_distance = (i.velocity_x - j.velocity_x) * x + (i.velocity_y - j.velocity_y) * y;
   pair.velocity_dot_gradient = velocity_dot_distance * slope;
   pair.viscosity = parameters.viscosity(velocity_dot_distance, separation.density_sum, inverse.second);
-
-  pair.stress = {i.stress.xx + j.stress.xx, i.stress.yy + j.stress.yy, i.stress.xy + j.stress.xy};
 
   // (19): (R_i + R_j) f^4, f = W(r)/W(d)
   const T f = parameters.kernel.value(distance) * T(parameters.inverse_kernel_at_spacing);
@@ -111,48 +110,55 @@ enum class SeenFrom { first, second };
 /// Adds to a particle's sums what its neighbour contributes. Out of the kernel's support, and for a particle with
 /// itself, that is an exact zero.
 template <SeenFrom from, class T>
-[[gnu::always_inline]] inline void add_interaction(const HypoelasticInteraction<T>& pair, const T& inverse_density_own,
-                                                   const T& neighbour_mass, const T& neighbour_volume,
-                                                   HypoelasticRates<T>& rates) {
-  // A product of two vectors is the same from both sides, a vector is added from one and subtracted from the other.
+[[gnu::always_inline]] inline void add_interaction(const HypoelasticInteraction<T>& pair,
+                                                   const HypoelasticState<T>& own, const T& inverse_density_own,
+                                                   const HypoelasticState<T>& neighbour, HypoelasticRates<T>& rates) {
+  // What has the gradient as a factor changes its sign with the side.
   const auto add = [](T& sum, const T& term) {
     if constexpr (from == SeenFrom::first)
       sum += term;
     else
       sum -= term;
   };
-  rates.density_rate += neighbour_mass * pair.velocity_dot_gradient;  // (9)
+  const auto subtract = [](T& sum, const T& term) {
+    if constexpr (from == SeenFrom::first)
+      sum -= term;
+    else
+      sum += term;
+  };
+  const T velocity_x = own.velocity_x - neighbour.velocity_x, velocity_y = own.velocity_y - neighbour.velocity_y;
+  rates.density_rate += neighbour.mass * pair.velocity_dot_gradient;  // (9)
 
   // (15, 16): dv^a/dx^b = sum V_j (v_j - v_i)^a grad^b W
-  const T weighted_x = neighbour_volume * pair.gradient_x, weighted_y = neighbour_volume * pair.gradient_y;
-  rates.gradient.xx -= pair.velocity_x * weighted_x;
-  rates.gradient.xy -= pair.velocity_x * weighted_y;
-  rates.gradient.yx -= pair.velocity_y * weighted_x;
-  rates.gradient.yy -= pair.velocity_y * weighted_y;
+  const T weighted_x = neighbour.volume * pair.gradient_x, weighted_y = neighbour.volume * pair.gradient_y;
+  subtract(rates.gradient.xx, velocity_x * weighted_x);
+  subtract(rates.gradient.xy, velocity_x * weighted_y);
+  subtract(rates.gradient.yx, velocity_y * weighted_x);
+  subtract(rates.gradient.yy, velocity_y * weighted_y);
 
   // (14): m_j (sigma_i + sigma_j)/(rho_i rho_j) = V_j (sigma_i + sigma_j)/rho_i
-  const T viscous = neighbour_mass * pair.viscosity;
-  const T elastic = neighbour_volume * inverse_density_own;
-  const T xx = elastic * pair.stress.xx - viscous;
-  const T yy = elastic * pair.stress.yy - viscous;
-  const T xy = elastic * pair.stress.xy;
+  const T viscous = neighbour.mass * pair.viscosity;
+  const T elastic = neighbour.volume * inverse_density_own;
+  const T xx = elastic * (own.stress.xx + neighbour.stress.xx) - viscous;
+  const T yy = elastic * (own.stress.yy + neighbour.stress.yy) - viscous;
+  const T xy = elastic * (own.stress.xy + neighbour.stress.xy);
   add(rates.acceleration_x, xx * pair.gradient_x + xy * pair.gradient_y);
   add(rates.acceleration_y, xy * pair.gradient_x + yy * pair.gradient_y);
   rates.dissipation_rate += T(0.5) * viscous * pair.velocity_dot_gradient;
 
-  const T weight = neighbour_mass * pair.weight;  // (19)
+  const T weight = neighbour.mass * pair.weight;  // (19)
   add(rates.artificial_x, weight * pair.artificial_x);
   add(rates.artificial_y, weight * pair.artificial_y);
 }
 
 /// Adds what j contributes to i.
-template <class T>
-[[gnu::always_inline]] inline void add_hypoelastic_pair(const HypoelasticPairParameters& parameters,
+template <class Viscosity, class T>
+[[gnu::always_inline]] inline void add_hypoelastic_pair(const HypoelasticPairParametersWith<Viscosity>& parameters,
                                                         const HypoelasticState<T>& i, const T& inverse_density_i,
                                                         const HypoelasticState<T>& j, HypoelasticRates<T>& rates) {
   const InverseSeparation<T> separation(parameters, Separation<T>(i, j), i, j);
-  add_interaction<SeenFrom::first>(hypoelastic_interaction(parameters, separation, i, j), inverse_density_i, j.mass,
-                                   j.volume, rates);
+  add_interaction<SeenFrom::first>(hypoelastic_interaction(parameters, separation, i, j), i, inverse_density_i, j,
+                                   rates);
 }
 
 }  // namespace sphdrop

@@ -44,11 +44,11 @@ struct Columns {
 
 /// Evaluates what a pack of rows keeps. The steps of an interaction are taken for three pairs at a time, one step each:
 /// the core, which looks only so far ahead, would wait for roots and divisions otherwise.
-template <class Shared>
-void keep_interactions(const HypoelasticPairParameters& shared_parameters, const SolidParticles& s, std::int64_t row,
+template <class Parameters, class Shared>
+void keep_interactions(const Parameters& shared_parameters, const SolidParticles& s, std::int64_t row,
                        std::span<const PairSharing::Kept> kept, Shared shared) {
   if (kept.empty()) return;
-  const HypoelasticPairParameters parameters = shared_parameters;
+  const Parameters parameters = shared_parameters;
   const Columns columns(s);
   const HypoelasticState<Pack> i = columns.at(row);
   const auto neighbour = [&](std::size_t k) [[gnu::always_inline]] { return columns.at(row + kept[k].offset); };
@@ -71,31 +71,30 @@ struct Entries {
   std::int32_t count;
 };
 
-template <class Shared>
-void set_rates(const HypoelasticParameters& shared_parameters, SolidParticles& s, std::int64_t row,
+template <class Parameters, class Shared>
+void set_rates(const HypoelasticParameters& general, const Parameters& shared_parameters, SolidParticles& s, std::int64_t row,
                const Entries& shared_entries, Shared shared) {
-  const HypoelasticPairParameters parameters = shared_parameters.pair;
+  const Parameters parameters = shared_parameters;
   const Entries entries = shared_entries;
-  const double *mass = s.mass.data(), *volume = s.volume.data();
+  const Columns columns(s);
+  const HypoelasticState<Pack> i = columns.at(row);
   const Pack inverse_density = Pack(1.0) / load(s.density.data() + row);
   HypoelasticRates<Pack> rates;
   for (std::int32_t k = 0; k < entries.count; ++k) {
     const std::int32_t offset = entries.offsets[k], slot = entries.slots[k];
     const std::int64_t j = row + offset;
     if (slot == PairSharing::none)
-      add_hypoelastic_pair(parameters, Columns(s).at(row), inverse_density, Columns(s).at(j), rates);
+      add_hypoelastic_pair(parameters, i, inverse_density, columns.at(j), rates);
     else if (offset < 0)
-      add_interaction<SeenFrom::second>(shared.kept(slot, j), inverse_density, load(mass + j), load(volume + j), rates);
+      add_interaction<SeenFrom::second>(shared.kept(slot, j), i, inverse_density, columns.at(j), rates);
     else
-      add_interaction<SeenFrom::first>(shared.kept(slot, row), inverse_density, load(mass + j), load(volume + j),
-                                       rates);
+      add_interaction<SeenFrom::first>(shared.kept(slot, row), i, inverse_density, columns.at(j), rates);
   }
 
   const SymmetricTensor<Pack> deviatoric{load(s.deviatoric_stress.xx.data() + row),
                                          load(s.deviatoric_stress.yy.data() + row),
                                          load(s.deviatoric_stress.xy.data() + row)};
-  const auto stress_rate = jaumann_stress_rate(rates.gradient, deviatoric, shared_parameters.material.shear_modulus(),
-                                               shared_parameters.trace_factor);
+  const auto stress_rate = jaumann_stress_rate(rates.gradient, deviatoric, general.material.shear_modulus(), general.trace_factor);
   store(rates.density_rate, s.density_rate.data() + row);
   store(rates.acceleration_x + rates.artificial_x, s.acceleration.x.data() + row);
   store(rates.acceleration_y + rates.artificial_y, s.acceleration.y.data() + row);
@@ -107,9 +106,9 @@ void set_rates(const HypoelasticParameters& shared_parameters, SolidParticles& s
         s.artificial_stress_power.data() + row);
 }
 
-template <std::int64_t rows>
-void sweep(const HypoelasticParameters& parameters, SolidParticles& s, const OffsetNeighbours& list, bool with_ghosts,
-           Column<double>& values) {
+template <std::int64_t rows, class Parameters>
+void sweep(const HypoelasticParameters& general, const Parameters& parameters, SolidParticles& s,
+           const OffsetNeighbours& list, bool with_ghosts, Column<double>& values) {
   using Shared = SharedInteractions<rows>;
   const PairSharing& sharing = list.sharing;
   if (values.size() < Shared::size(sharing.slot_count)) values.resize(Shared::size(sharing.slot_count));
@@ -123,9 +122,9 @@ void sweep(const HypoelasticParameters& parameters, SolidParticles& s, const Off
     const Entries entries{list.offsets.data() + block.first_offset, sharing.slots.data() + block.first_offset,
                           block.offsets};
     for (std::int32_t lane = 0; lane < block_size; lane += pack_size)
-      keep_interactions(parameters.pair, s, block.first_row + lane, kept, shared);
+      keep_interactions(parameters, s, block.first_row + lane, kept, shared);
     for (std::int32_t lane = 0; lane < block_size; lane += pack_size)
-      set_rates(parameters, s, block.first_row + lane, entries, shared);
+      set_rates(general, parameters, s, block.first_row + lane, entries, shared);
   }
 }
 
@@ -157,13 +156,21 @@ void HypoelasticSweep::update_stress(SolidParticles& s, std::span<const RowRange
 
 void HypoelasticSweep::apply(SolidParticles& s, const OffsetNeighbours& list, Blocks which) const {
   const bool with_ghosts = which == Blocks::with_ghosts;
-  constexpr auto rows = PairSharing::row_choices;
-  if (list.sharing.rows == rows[0])
-    sweep<rows[0]>(parameters_, s, list, with_ghosts, shared_);
-  else if (list.sharing.rows == rows[1])
-    sweep<rows[1]>(parameters_, s, list, with_ghosts, shared_);
+  const auto sweep_with = [&](const auto& pair) {
+    constexpr auto rows = PairSharing::row_choices;
+    if (list.sharing.rows == rows[0])
+      sweep<rows[0]>(parameters_, pair, s, list, with_ghosts, shared_);
+    else if (list.sharing.rows == rows[1])
+      sweep<rows[1]>(parameters_, pair, s, list, with_ghosts, shared_);
+    else
+      sweep<rows[2]>(parameters_, pair, s, list, with_ghosts, shared_);
+  };
+  const HypoelasticPairParameters& pair = parameters_.pair;
+  if (pair.viscosity.beta == 0.0)
+    sweep_with(HypoelasticPairParametersWith<LinearArtificialViscosity>{
+        pair.kernel, LinearArtificialViscosity(pair.viscosity), pair.inverse_kernel_at_spacing});
   else
-    sweep<rows[2]>(parameters_, s, list, with_ghosts, shared_);
+    sweep_with(pair);
 }
 
 }  // namespace sphdrop

@@ -33,35 +33,27 @@ class SharedInteractions {
   [[gnu::always_inline]] HypoelasticInteraction<Pack> kept(std::int32_t slot, std::int64_t row) const {
     const double* p = values_ + slot * slot_size + (row & (rows - 1));
     HypoelasticInteraction<Pack> pair;
-    pair.velocity_x = load(p);
-    pair.velocity_y = load(p + stride);
-    pair.gradient_x = load(p + 2 * stride);
-    pair.gradient_y = load(p + 3 * stride);
-    pair.velocity_dot_gradient = load(p + 4 * stride);
-    pair.viscosity = load(p + 5 * stride);
-    pair.weight = load(p + 6 * stride);
-    pair.stress = {load(p + 7 * stride), load(p + 8 * stride), load(p + 9 * stride)};
-    pair.artificial_x = load(p + 10 * stride);
-    pair.artificial_y = load(p + 11 * stride);
+    pair.gradient_x = load(p);
+    pair.gradient_y = load(p + stride);
+    pair.velocity_dot_gradient = load(p + 2 * stride);
+    pair.viscosity = load(p + 3 * stride);
+    pair.weight = load(p + 4 * stride);
+    pair.artificial_x = load(p + 5 * stride);
+    pair.artificial_y = load(p + 6 * stride);
     return pair;
   }
 
  private:
-  static constexpr std::int64_t stride = rows + block_size, quantities = 12, slot_size = quantities * stride;
+  static constexpr std::int64_t stride = rows + block_size, quantities = 7, slot_size = quantities * stride;
 
   [[gnu::always_inline]] static void write(double* p, const HypoelasticInteraction<Pack>& pair) {
-    store(pair.velocity_x, p);
-    store(pair.velocity_y, p + stride);
-    store(pair.gradient_x, p + 2 * stride);
-    store(pair.gradient_y, p + 3 * stride);
-    store(pair.velocity_dot_gradient, p + 4 * stride);
-    store(pair.viscosity, p + 5 * stride);
-    store(pair.weight, p + 6 * stride);
-    store(pair.stress.xx, p + 7 * stride);
-    store(pair.stress.yy, p + 8 * stride);
-    store(pair.stress.xy, p + 9 * stride);
-    store(pair.artificial_x, p + 10 * stride);
-    store(pair.artificial_y, p + 11 * stride);
+    store(pair.gradient_x, p);
+    store(pair.gradient_y, p + stride);
+    store(pair.velocity_dot_gradient, p + 2 * stride);
+    store(pair.viscosity, p + 3 * stride);
+    store(pair.weight, p + 4 * stride);
+    store(pair.artificial_x, p + 5 * stride);
+    store(pair.artificial_y, p + 6 * stride);
   }
 
   double* values_;  // [slot][quantity][place]
