@@ -1,5 +1,7 @@
 #include "fluid/fluid_sweep.hpp"
 
+#include <type_traits>
+
 #include "particles/pack.hpp"
 
 namespace sphdrop {
@@ -63,7 +65,16 @@ void FluidSweep::pack(const FluidParticles& fluid, std::span<const RowRange> row
 }
 
 void FluidSweep::apply(FluidParticles& fluid, const SlicedNeighbours& list) const {
-  std::visit([&](const auto& parameters) { sweep(parameters, records_.data(), fluid, list); }, parameters_);
+  std::visit(
+      [&]<class Kernel, class Viscosity>(const FluidPairParameters<Kernel, Viscosity>& parameters) {
+        if constexpr (std::is_same_v<Viscosity, ArtificialViscosity>)
+          if (parameters.viscosity.beta == 0.0)
+            return sweep(FluidPairParameters<Kernel, LinearArtificialViscosity>{
+                             parameters.kernel, LinearArtificialViscosity(parameters.viscosity)},
+                         records_.data(), fluid, list);
+        sweep(parameters, records_.data(), fluid, list);
+      },
+      parameters_);
 }
 
 }  // namespace sphdrop

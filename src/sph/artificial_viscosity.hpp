@@ -35,14 +35,29 @@ struct ArtificialViscosity {
   }
 };
 
+/// The same with beta = 0, which most cases have: the quadratic term would add an exact zero.
+struct LinearArtificialViscosity : ArtificialViscosity {
+  explicit LinearArtificialViscosity(const ArtificialViscosity& general) : ArtificialViscosity(general) {}
+
+  template <class T>
+  [[gnu::always_inline]] T operator()(const T& velocity_dot_distance, const T& /*density_sum*/,
+                                      const T& inverse_denominator) const {
+    using std::min;
+    return T(smoothing_length) * min(velocity_dot_distance, T(0.0)) * inverse_denominator *
+           T(-2.0 * (alpha * sound_speed));
+  }
+};
+
 /// 1/a and 1/b by one division: dividing costs as much as ten multiplications. The product a b must be in range.
 template <class T>
 struct InversePair {
   T first, second;
 
-  [[gnu::always_inline]] InversePair(const T& a, const T& b) : first(T(1.0) / (a * b)), second(first * a) {
-    first = first * b;
-  }
+  [[gnu::always_inline]] static T of_product(const T& a, const T& b) { return T(1.0) / (a * b); }
+
+  [[gnu::always_inline]] InversePair(const T& a, const T& b, const T& inverse_product)
+      : first(inverse_product * b), second(inverse_product * a) {}
+  [[gnu::always_inline]] InversePair(const T& a, const T& b) : InversePair(a, b, of_product(a, b)) {}
 };
 
 }  // namespace sphdrop

@@ -26,7 +26,8 @@ struct CubicSpline {
     const T q = r * T(inverse_smoothing_length);
     const T a = max(T(2.0) - q, T(0.0));
     const T b = max(T(1.0) - q, T(0.0));
-    return T(value_factor) * (a * a * a - T(4.0) * (b * b * b));
+    // 4 is a power of two: it may stand anywhere, and here slope() has computed 4 b b, too.
+    return T(value_factor) * (a * a * a - T(4.0) * (b * b) * b);
   }
 
   /// dW/dr at distance r, 1/m3: never positive.

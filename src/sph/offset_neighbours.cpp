@@ -53,6 +53,7 @@ OffsetNeighbours OffsetNeighbours::build(const ParticleSet& particles, const std
     list.offsets.insert(list.offsets.end(), found.begin(), found.end());
     list.blocks.push_back(block);
   }
+  list.sharing = PairSharing::plan(list);
   return list;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "particles/particle_set.hpp"
+#include "sph/pair_sharing.hpp"
 
 namespace sphdrop {
 
@@ -22,6 +23,7 @@ struct OffsetNeighbours {
   };
   std::vector<Block> blocks;
   std::vector<std::int32_t> offsets;
+  PairSharing sharing;     ///< entry by entry, as `offsets`
   std::int64_t pairs = 0;  ///< within reach, of owned rows
 
   /// Blocks that cover all owned rows of `particles`, whose rows must be sorted by id. `reach` in m.

@@ -29,58 +29,136 @@ struct HypoelasticRates {
   VelocityGradient<T> gradient;  ///< (15, 16), 1/s
 };
 
-struct HypoelasticPairParameters {
+/// What the pair formula is made of: ArtificialViscosity, or the same where beta is zero.
+template <class Viscosity>
+struct HypoelasticPairParametersWith {
   CubicSpline kernel;
-  ArtificialViscosity viscosity;
+  Viscosity viscosity;
   double inverse_kernel_at_spacing = 0;  ///< 1/W(d) of Eq 19, m2
 };
+using HypoelasticPairParameters = HypoelasticPairParametersWith<ArtificialViscosity>;
 
-/// Adds what j contributes to i. Out of the kernel's support, and for j = i, that is an exact zero.
+/// What a pair has in common: seen from the other particle the vectors change their sign and nothing else changes a bit,
+/// so that one evaluation serves both. Differences of velocity and sums of stress are not kept: they cost less than
+/// their place in the cache.
 template <class T>
-[[gnu::always_inline]] inline void add_hypoelastic_pair(const HypoelasticPairParameters& parameters,
-                                                        const HypoelasticState<T>& i, const T& inverse_density_i,
-                                                        const HypoelasticState<T>& j, HypoelasticRates<T>& rates) {
-  using std::max;
-  using std::sqrt;
-  const T x = i.x - j.x, y = i.y - j.y;
-  const T velocity_x = i.velocity_x - j.velocity_x, velocity_y = i.velocity_y - j.velocity_y;
-  const T squared_distance = x * x + y * y;
-  const T distance = sqrt(max(squared_distance, T(1e-60)));
-  const T density_sum = i.density + j.density;
-  const InversePair<T> inverse(distance, parameters.viscosity.denominator(squared_distance, density_sum));
+struct HypoelasticInteraction {
+  T gradient_x, gradient_y;  ///< grad_i W, 1/m3
+  T velocity_dot_gradient;
+  T viscosity;  ///< Pi_ij (17), m5/(kg s2)
+  T weight;     ///< f^4 of (19)
+  T artificial_x, artificial_y;  ///< (R_i + R_j) grad_i W
+};
+
+/// How far two particles are apart: the first step of an interaction, which ends with a square root.
+template <class T>
+struct Separation {
+  T x, y, squared_distance, distance;
+
+  [[gnu::always_inline]] Separation(const HypoelasticState<T>& i, const HypoelasticState<T>& j)
+      : x(i.x - j.x), y(i.y - j.y), squared_distance(x * x + y * y) {
+    using std::max;
+    using std::sqrt;
+    distance = sqrt(max(squared_distance, T(1e-60)));
+  }
+};
+
+/// The second step, a division: what the third divides by.
+template <class T>
+struct InverseSeparation : Separation<T> {
+  T density_sum, denominator, inverse_product;
+
+  template <class Viscosity>
+  [[gnu::always_inline]] InverseSeparation(const HypoelasticPairParametersWith<Viscosity>& parameters, const Separation<T>& separation,
+                                           const HypoelasticState<T>& i, const HypoelasticState<T>& j)
+      : Separation<T>(separation),
+        density_sum(i.density + j.density),
+        denominator(parameters.viscosity.denominator(separation.squared_distance, density_sum)),
+        inverse_product(InversePair<T>::of_product(separation.distance, denominator)) {}
+};
+
+/// The third step, products and sums alone.
+template <class Viscosity, class T>
+[[gnu::always_inline]] inline HypoelasticInteraction<T> hypoelastic_interaction(
+    const HypoelasticPairParametersWith<Viscosity>& parameters, const InverseSeparation<T>& separation, const HypoelasticState<T>& i,
+    const HypoelasticState<T>& j) {
+  HypoelasticInteraction<T> pair;
+  const T &x = separation.x, &y = separation.y, &distance = separation.distance;
+  const InversePair<T> inverse(distance, separation.denominator, separation.inverse_product);
   const T slope = parameters.kernel.slope(distance) * inverse.first;  // grad W = slope x_ij
-  const T gradient_x = slope * x, gradient_y = slope * y;
-  const T velocity_dot_distance = velocity_x * x + velocity_y * y;
-  const T velocity_dot_gradient = velocity_dot_distance * slope;
-
-  rates.density_rate += j.mass * velocity_dot_gradient;  // (9)
-
-  // (15, 16): dv^a/dx^b = sum V_j (v_j - v_i)^a grad^b W
-  const T weighted_x = j.volume * gradient_x, weighted_y = j.volume * gradient_y;
-  rates.gradient.xx -= velocity_x * weighted_x;
-  rates.gradient.xy -= velocity_x * weighted_y;
-  rates.gradient.yx -= velocity_y * weighted_x;
-  rates.gradient.yy -= velocity_y * weighted_y;
-
-  // (14): m_j (sigma_i + sigma_j)/(rho_i rho_j) = V_j (sigma_i + sigma_j)/rho_i
-  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, density_sum, inverse.second);
-  const T elastic = j.volume * inverse_density_i;
-  const T xx = elastic * (i.stress.xx + j.stress.xx) - viscous;
-  const T yy = elastic * (i.stress.yy + j.stress.yy) - viscous;
-  const T xy = elastic * (i.stress.xy + j.stress.xy);
-  rates.acceleration_x += xx * gradient_x + xy * gradient_y;
-  rates.acceleration_y += xy * gradient_x + yy * gradient_y;
-  rates.dissipation_rate += T(0.5) * viscous * velocity_dot_gradient;
+  pair.gradient_x = slope * x;
+  pair.gradient_y = slope * y;
+  const T velocity_dot_distance = (i.velocity_x - j.velocity_x) * x + (i.velocity_y - j.velocity_y) * y;
+  pair.velocity_dot_gradient = velocity_dot_distance * slope;
+  pair.viscosity = parameters.viscosity(velocity_dot_distance, separation.density_sum, inverse.second);
 
   // (19): (R_i + R_j) f^4, f = W(r)/W(d)
   const T f = parameters.kernel.value(distance) * T(parameters.inverse_kernel_at_spacing);
   const T squared_f = f * f;
-  const T weight = j.mass * (squared_f * squared_f);
+  pair.weight = squared_f * squared_f;
   const T artificial_xy = i.artificial_stress.xy + j.artificial_stress.xy;
-  rates.artificial_x +=
-      weight * ((i.artificial_stress.xx + j.artificial_stress.xx) * gradient_x + artificial_xy * gradient_y);
-  rates.artificial_y +=
-      weight * (artificial_xy * gradient_x + (i.artificial_stress.yy + j.artificial_stress.yy) * gradient_y);
+  pair.artificial_x =
+      (i.artificial_stress.xx + j.artificial_stress.xx) * pair.gradient_x + artificial_xy * pair.gradient_y;
+  pair.artificial_y =
+      artificial_xy * pair.gradient_x + (i.artificial_stress.yy + j.artificial_stress.yy) * pair.gradient_y;
+  return pair;
+}
+
+/// Whose sums are added to: those of the particle that the interaction was evaluated for, or of the other one.
+enum class SeenFrom { first, second };
+
+/// Adds to a particle's sums what its neighbour contributes. Out of the kernel's support, and for a particle with
+/// itself, that is an exact zero.
+template <SeenFrom from, class T>
+[[gnu::always_inline]] inline void add_interaction(const HypoelasticInteraction<T>& pair,
+                                                   const HypoelasticState<T>& own, const T& inverse_density_own,
+                                                   const HypoelasticState<T>& neighbour, HypoelasticRates<T>& rates) {
+  // What has the gradient as a factor changes its sign with the side.
+  const auto add = [](T& sum, const T& term) {
+    if constexpr (from == SeenFrom::first)
+      sum += term;
+    else
+      sum -= term;
+  };
+  const auto subtract = [](T& sum, const T& term) {
+    if constexpr (from == SeenFrom::first)
+      sum -= term;
+    else
+      sum += term;
+  };
+  const T velocity_x = own.velocity_x - neighbour.velocity_x, velocity_y = own.velocity_y - neighbour.velocity_y;
+  rates.density_rate += neighbour.mass * pair.velocity_dot_gradient;  // (9)
+
+  // (15, 16): dv^a/dx^b = sum V_j (v_j - v_i)^a grad^b W
+  const T weighted_x = neighbour.volume * pair.gradient_x, weighted_y = neighbour.volume * pair.gradient_y;
+  subtract(rates.gradient.xx, velocity_x * weighted_x);
+  subtract(rates.gradient.xy, velocity_x * weighted_y);
+  subtract(rates.gradient.yx, velocity_y * weighted_x);
+  subtract(rates.gradient.yy, velocity_y * weighted_y);
+
+  // (14): m_j (sigma_i + sigma_j)/(rho_i rho_j) = V_j (sigma_i + sigma_j)/rho_i
+  const T viscous = neighbour.mass * pair.viscosity;
+  const T elastic = neighbour.volume * inverse_density_own;
+  const T xx = elastic * (own.stress.xx + neighbour.stress.xx) - viscous;
+  const T yy = elastic * (own.stress.yy + neighbour.stress.yy) - viscous;
+  const T xy = elastic * (own.stress.xy + neighbour.stress.xy);
+  add(rates.acceleration_x, xx * pair.gradient_x + xy * pair.gradient_y);
+  add(rates.acceleration_y, xy * pair.gradient_x + yy * pair.gradient_y);
+  rates.dissipation_rate += T(0.5) * viscous * pair.velocity_dot_gradient;
+
+  const T weight = neighbour.mass * pair.weight;  // (19)
+  add(rates.artificial_x, weight * pair.artificial_x);
+  add(rates.artificial_y, weight * pair.artificial_y);
+}
+
+/// Adds what j contributes to i.
+template <class Viscosity, class T>
+[[gnu::always_inline]] inline void add_hypoelastic_pair(const HypoelasticPairParametersWith<Viscosity>& parameters,
+                                                        const HypoelasticState<T>& i, const T& inverse_density_i,
+                                                        const HypoelasticState<T>& j, HypoelasticRates<T>& rates) {
+  const InverseSeparation<T> separation(parameters, Separation<T>(i, j), i, j);
+  add_interaction<SeenFrom::first>(hypoelastic_interaction(parameters, separation, i, j), i, inverse_density_i, j,
+                                   rates);
 }
 
 }  // namespace sphdrop

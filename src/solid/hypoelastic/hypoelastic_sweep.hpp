@@ -31,6 +31,7 @@ class HypoelasticSweep {
 
  private:
   HypoelasticParameters parameters_;
+  mutable Column<double> shared_;  // interactions, of no meaning between calls
 };
 
 }  // namespace sphdrop
