@@ -80,7 +80,7 @@ class ExchangePlan {
 
   void count_rows();
 
-  MPI_Comm handle_ = MPI_COMM_NULL;
+  const Communicator* communicator_ = nullptr;
   int own_rank_ = -1;
   int tag_ = 0;
   std::vector<RankRows> sends_, receives_;  // ascending ranks, none without rows

@@ -29,6 +29,9 @@ class InterfaceGather {
   /// At the owner the position of `id` among them, -1 if it is not there.
   std::int32_t index_of(std::int64_t id) const;
 
+  /// The messages of a gather, and with sends and receives exchanged, of a scatter.
+  const ExchangePlan& plan() const { return gather_; }
+
   /// Sends this rank's rows of the columns to the owner, where finish_gather stores them in ids() order.
   void start_gather(std::span<const void* const> columns) { gather_.start(columns); }
   void finish_gather(std::span<void* const> gathered) { gather_.finish(gathered); }

@@ -102,6 +102,19 @@ RunSummary RecordedRun::finish() {
     record_->set("largest_mach_number", summary.drop->largest_mach_number->value);
   record_->set("load_imbalance", summary.load_imbalance);
   for (const PhaseTime& phase : summary.phases) record_->set("seconds in " + phase.name, phase.seconds);
+  for (const RankTraffic& traffic : summary.traffic) {
+    if (traffic.occasion != "step") record_->set(traffic.occasion + "s", traffic.times);
+    const auto set = [&](const char* what, double value) {
+      record_->set(fmt::format("{} a {}", what, traffic.occasion), value);
+    };
+    set("messages", traffic.messages);
+    set("message bytes", traffic.bytes);
+    set("most messages", traffic.most_messages);
+    set("most message bytes", traffic.most_bytes);
+    set("collectives", traffic.collectives);
+    set("collective bytes", traffic.collective_bytes);
+  }
+  record_->set("peak_memory", summary.peak_memory);
   record_->finish("completed", hash);
   record_->write(communicator_, directory_);
   return summary;

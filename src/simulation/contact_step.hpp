@@ -62,6 +62,9 @@ class ContactStep {
   Load load_on_solid() const { return load_on_solid_; }
 
   int owner() const { return owner_; }
+  /// Who sends the owner what, of liquid and boundary.
+  const InterfaceGather& fluid_gather() const { return fluid_gather_; }
+  const InterfaceGather& solid_gather() const { return solid_gather_; }
   /// At the owner: the part of the boundary that liquid may come near to until the next regather(), as last received,
   /// and the forces on it. If the solid attracts the liquid the part reaches as far as that matters.
   ContactSurface boundary() const { return {solver_.segments(), vertex_x_, vertex_y_}; }

@@ -45,6 +45,8 @@ class Distribution {
 
   ExchangePlan& fluid_halo() { return fluid_halo_; }
   ExchangePlan& solid_halo() { return solid_halo_; }
+  const ExchangePlan& fluid_halo() const { return fluid_halo_; }
+  const ExchangePlan& solid_halo() const { return solid_halo_; }
   /// Positions within 4h + skin, which surface detection looks at: what arrives is stored behind the owned rows.
   ExchangePlan& wide_halo() { return wide_halo_; }
 

@@ -278,8 +278,11 @@ void SurfaceTensionStep::start(const FluidParticles& fluid) {
   gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
 }
 
-void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
+void SurfaceTensionStep::receive() {
   gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
+}
+
+void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
   if (owner() == communicator_.rank()) {
     update_points();
     if (form_ == SurfaceTensionForm::conservative)
