@@ -229,6 +229,13 @@ void ExchangePlan::renumber_sent_rows(std::span<const std::int32_t> new_row) {
   renumber(sends_, new_row);
 }
 
+void ExchangePlan::number_received_rows() {
+  assert(!transfer_.under_way);
+  std::int32_t next = 0;
+  for (RankRows& peer : receives_)
+    for (std::int32_t& row : peer.rows) row = next++;
+}
+
 std::span<const RankRows> ExchangePlan::sends() const {
   return sends_;
 }

@@ -27,7 +27,7 @@ bool goes_on(const Communicator& communicator, const std::optional<std::string>&
 
 }  // namespace
 
-RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, const InitialState& initial,
+RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, InitialState initial,
                          const RecordedRunOptions& options)
     : communicator_(communicator),
       directory_(input.output.directory),
@@ -52,6 +52,7 @@ RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, co
   record_->write(communicator, directory_);
 
   simulation_ = std::make_unique<Simulation>(communicator, input, initial.fluid, initial.solid);
+  initial = {};
   const Checkpoint* checkpoint = restart ? &restart->checkpoint : nullptr;
   if (checkpoint != nullptr) taking_up([&] { simulation_->restore(*checkpoint); });
   const RecorderOptions recording{directory_, end_, options.progress, version_text()};

@@ -55,7 +55,9 @@ class ContactStep {
   void accelerate_solid(SolidParticles& solid) const;
   void kick_solid(SolidParticles& solid, double kick) const;
 
-  /// By row, of the step last finished: what finish() added to the liquid's accelerations, m/s2; empty without a solid.
+  /// The liquid's rows that are within reach of the boundary until the next regather().
+  std::span<const std::int32_t> fluid_rows() const { return fluid_rows_; }
+  /// Of those rows, of the step last finished: what finish() added to their accelerations, m/s2.
   std::span<const double> acceleration_x() const { return returned_fluid_x_; }
   std::span<const double> acceleration_y() const { return returned_fluid_y_; }
   /// On every rank, of the step last finished; known only where the drop is rigid, which takes the opposite.

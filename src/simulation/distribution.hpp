@@ -59,6 +59,9 @@ class Distribution {
 
  private:
   bool solid_changes_ranks(std::span<const int> destination) const;
+  /// Rows near other ranks last; within the two groups by cell, so that neighbours are near in memory. Returns how many
+  /// are not near others.
+  std::int32_t sort_fluid(FluidParticles& fluid) const;
   void make_fluid_ghosts(FluidParticles& fluid);
   void make_solid_ghosts(SolidParticles& solid);
 

@@ -152,7 +152,11 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
   if (has_density_diffusion()) {
     fluid_ghosted_.push_back(&fluid_.density_gradient.x);
     fluid_ghosted_.push_back(&fluid_.density_gradient.y);
+  } else {
+    fluid_.density_gradient.leave_out();
+    fluid_.density_diffusion.leave_out();
   }
+  if (!shifting_.is_enabled()) fluid_.surface_orientation.leave_out();
   solid_ghosted_ = solid_step_->ghosted(solid_);
   correction_ghosted_ = {&fluid_.position.x, &fluid_.position.y, &fluid_.density.columns[0]};
   take_initial_state(initial_fluid, initial_solid);
