@@ -45,8 +45,9 @@ void check_item_count(std::uint64_t total) {
 }
 
 template <class T>
-T all_reduce(T value, MPI_Datatype type, MPI_Op operation, MPI_Comm handle) {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, type, operation, handle);
+T all_reduce(T value, MPI_Datatype type, MPI_Op operation, const Communicator& communicator) {
+  communicator.note(TrafficKind::reduction, sizeof(T));
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, type, operation, communicator.handle());
   return value;
 }
 
@@ -73,39 +74,43 @@ Communicator::~Communicator() {
 }
 
 void Communicator::barrier() const {
+  note(TrafficKind::barrier, 0);
   MPI_Barrier(handle_);
 }
 
 double Communicator::max(double value) const {
-  return all_reduce(value, MPI_DOUBLE, MPI_MAX, handle_);
+  return all_reduce(value, MPI_DOUBLE, MPI_MAX, *this);
 }
 double Communicator::min(double value) const {
-  return all_reduce(value, MPI_DOUBLE, MPI_MIN, handle_);
+  return all_reduce(value, MPI_DOUBLE, MPI_MIN, *this);
 }
 std::int64_t Communicator::max(std::int64_t value) const {
-  return all_reduce(value, MPI_INT64_T, MPI_MAX, handle_);
+  return all_reduce(value, MPI_INT64_T, MPI_MAX, *this);
 }
 std::int64_t Communicator::min(std::int64_t value) const {
-  return all_reduce(value, MPI_INT64_T, MPI_MIN, handle_);
+  return all_reduce(value, MPI_INT64_T, MPI_MIN, *this);
 }
 std::int64_t Communicator::sum(std::int64_t value) const {
-  return all_reduce(value, MPI_INT64_T, MPI_SUM, handle_);
+  return all_reduce(value, MPI_INT64_T, MPI_SUM, *this);
 }
 std::uint64_t Communicator::sum(std::uint64_t value) const {
-  return all_reduce(value, MPI_UINT64_T, MPI_SUM, handle_);
+  return all_reduce(value, MPI_UINT64_T, MPI_SUM, *this);
 }
 
 void Communicator::max_in_place(std::span<double> values) const {
+  note(TrafficKind::reduction, values.size_bytes());
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX, handle_);
 }
 
 void Communicator::sum_in_place(std::span<std::int64_t> values) const {
+  note(TrafficKind::reduction, values.size_bytes());
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM, handle_);
 }
 
 Communicator::GatherLayout Communicator::gather_layout(std::size_t mine) const {
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(size_));
   const std::uint64_t count = mine;
+  note(TrafficKind::gather, counts.size() * sizeof(std::uint64_t));
   MPI_Allgather(&count, 1, MPI_UINT64_T, counts.data(), 1, MPI_UINT64_T, handle_);
   std::uint64_t total = 0;
   for (const std::uint64_t c : counts) total += c;
@@ -121,6 +126,7 @@ Communicator::GatherLayout Communicator::gather_layout(std::size_t mine) const {
 
 void Communicator::all_gather_items(const void* mine, const GatherLayout& layout, void* all,
                                     std::size_t item_bytes) const {
+  note(TrafficKind::gather, layout.total * item_bytes);
   const ItemType type(item_bytes);
   MPI_Allgatherv(mine, layout.counts[static_cast<std::size_t>(rank_)], type.get(), all, layout.counts.data(),
                  layout.starts.data(), type.get(), handle_);
@@ -128,6 +134,8 @@ void Communicator::all_gather_items(const void* mine, const GatherLayout& layout
 
 void Communicator::gather_items(const void* mine, const GatherLayout& layout, void* all, std::size_t item_bytes,
                                 int root) const {
+  const auto own = static_cast<std::size_t>(layout.counts[static_cast<std::size_t>(rank_)]);
+  note(TrafficKind::gather, (rank_ == root ? layout.total : own) * item_bytes);
   const ItemType type(item_bytes);
   MPI_Gatherv(mine, layout.counts[static_cast<std::size_t>(rank_)], type.get(), all, layout.counts.data(),
               layout.starts.data(), type.get(), root, handle_);
@@ -135,12 +143,14 @@ void Communicator::gather_items(const void* mine, const GatherLayout& layout, vo
 
 std::size_t Communicator::broadcast_count(std::size_t count, int root) const {
   std::uint64_t agreed = count;
+  note(TrafficKind::broadcast, sizeof(agreed));
   MPI_Bcast(&agreed, 1, MPI_UINT64_T, root, handle_);
   check_item_count(agreed);
   return agreed;
 }
 
 void Communicator::broadcast_items(void* items, std::size_t count, std::size_t item_bytes, int root) const {
+  note(TrafficKind::broadcast, count * item_bytes);
   const ItemType type(item_bytes);
   MPI_Bcast(items, static_cast<int>(count), type.get(), root, handle_);
 }
@@ -150,7 +160,7 @@ void Communicator::broadcast(std::string& text, int root) const {
   broadcast_items(text.data(), text.size(), 1, root);
 }
 
-PendingMaximum::PendingMaximum(const Communicator& communicator) : handle_(communicator.handle()) {}
+PendingMaximum::PendingMaximum(const Communicator& communicator) : communicator_(&communicator) {}
 
 PendingMaximum::~PendingMaximum() {
   if (!under_way_ || mpi_is_finalized()) return;
@@ -174,8 +184,9 @@ void PendingMaximum::start(std::span<const double> values) {
   assert(!under_way_);
   values_.assign(values.begin(), values.end());
   maxima_.resize(values.size());
-  MPI_Iallreduce(values_.data(), maxima_.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX, handle_,
-                 &request_);
+  communicator_->note(TrafficKind::pending_reduction, values.size_bytes());
+  MPI_Iallreduce(values_.data(), maxima_.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
+                 communicator_->handle(), &request_);
   under_way_ = true;
 }
 
@@ -186,7 +197,7 @@ std::span<const double> PendingMaximum::finish() {
   return maxima_;
 }
 
-PendingSum::PendingSum(const Communicator& communicator) : handle_(communicator.handle()) {}
+PendingSum::PendingSum(const Communicator& communicator) : communicator_(&communicator) {}
 
 PendingSum::~PendingSum() {
   if (!under_way_ || mpi_is_finalized()) return;
@@ -204,8 +215,9 @@ void PendingSum::start(std::span<const std::int64_t> values) {
   assert(!under_way_);
   values_.assign(values.begin(), values.end());
   sums_.resize(values.size());
-  MPI_Iallreduce(values_.data(), sums_.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM, handle_,
-                 &request_);
+  communicator_->note(TrafficKind::pending_reduction, values.size_bytes());
+  MPI_Iallreduce(values_.data(), sums_.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM,
+                 communicator_->handle(), &request_);
   under_way_ = true;
 }
 

@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "decomposition/traffic.hpp"
+
 namespace sphdrop {
 
 /// MPI_Init on construction, MPI_Finalize on destruction; one per program. MPI's helper threads are started with the
@@ -25,7 +27,8 @@ class MpiEnvironment {
 
 /// A duplicate of an MPI communicator. Reductions here are exact (max, min, integer sums): their result does not depend
 /// on the number of ranks or the order of arrival, so they may steer a run. Every member that communicates is
-/// collective. What max and min make of a NaN is undefined: callers report it by a flag of its own.
+/// collective. What max and min make of a NaN is undefined: callers report it by a flag of its own. It counts what goes
+/// through it, also by what is built on it; a call of MPI on handle() goes uncounted unless it is noted.
 class Communicator {
  public:
   explicit Communicator(MPI_Comm parent);
@@ -36,6 +39,11 @@ class Communicator {
   int rank() const { return rank_; }
   int size() const { return size_; }
   MPI_Comm handle() const { return handle_; }
+
+  /// What this rank has exchanged so far.
+  const Traffic& traffic() const { return traffic_; }
+  /// To be called with every call of MPI on handle().
+  void note(TrafficKind kind, std::size_t bytes) const { traffic_.add(kind, bytes); }
 
   void barrier() const;
   double max(double value) const;
@@ -76,6 +84,7 @@ class Communicator {
   MPI_Comm handle_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
+  mutable Traffic traffic_;  // counting leaves the communicator as it is
 };
 
 /// An element-wise maximum over all ranks that is under way while the caller computes. One at a time (asserted). The
@@ -93,7 +102,7 @@ class PendingMaximum {
   std::span<const double> finish();
 
  private:
-  MPI_Comm handle_;
+  const Communicator* communicator_;
   MPI_Request request_ = MPI_REQUEST_NULL;
   bool under_way_ = false;
   std::vector<double> values_, maxima_;
@@ -115,7 +124,7 @@ class PendingSum {
   std::span<const std::int64_t> finish();
 
  private:
-  MPI_Comm handle_;
+  const Communicator* communicator_;
   MPI_Request request_ = MPI_REQUEST_NULL;
   bool under_way_ = false;
   std::vector<std::int64_t> values_, sums_;

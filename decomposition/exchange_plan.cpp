@@ -116,7 +116,7 @@ void ExchangePlan::Transfer::end() {
 
 ExchangePlan::ExchangePlan(const Communicator& communicator, std::vector<RankRows> sends,
                            std::vector<RankRows> receives, int tag)
-    : handle_(communicator.handle()),
+    : communicator_(&communicator),
       own_rank_(communicator.rank()),
       tag_(tag),
       sends_(std::move(sends)),
@@ -141,6 +141,7 @@ ExchangePlan ExchangePlan::from_sends(const Communicator& communicator, std::vec
   std::vector<std::int32_t> receive_counts(ranks, 0);
   for (const RankRows& peer : sends)
     send_counts[static_cast<std::size_t>(peer.rank)] = static_cast<std::int32_t>(peer.rows.size());
+  communicator.note(TrafficKind::all_to_all, ranks * sizeof(std::int32_t));
   MPI_Alltoall(send_counts.data(), 1, MPI_INT32_T, receive_counts.data(), 1, MPI_INT32_T, communicator.handle());
 
   std::vector<RankRows> receives;
@@ -157,7 +158,7 @@ ExchangePlan ExchangePlan::from_sends(const Communicator& communicator, std::vec
 
 ExchangePlan ExchangePlan::reversed(int tag) const {
   ExchangePlan plan;
-  plan.handle_ = handle_;
+  plan.communicator_ = communicator_;
   plan.own_rank_ = own_rank_;
   plan.tag_ = tag;
   plan.sends_ = receives_;
@@ -179,18 +180,23 @@ void ExchangePlan::start(std::span<const void* const> source_columns) {
   std::uint64_t* arriving = transfer_.receive_buffer.data();
   for (const RankRows& peer : receives_) {
     const std::size_t words = peer.rows.size() * columns;
-    if (peer.rank != own_rank_)
-      MPI_Irecv(arriving, message_length(words), MPI_UINT64_T, peer.rank, tag_, handle_,
+    if (peer.rank != own_rank_) {
+      communicator_->note(TrafficKind::message_received, words * word_bytes);
+      MPI_Irecv(arriving, message_length(words), MPI_UINT64_T, peer.rank, tag_, communicator_->handle(),
                 &transfer_.requests.emplace_back());
+    }
     arriving += words;
   }
   // Own rows are packed like all others: the target columns may be the source columns.
   std::uint64_t* leaving = transfer_.send_buffer.data();
   for (const RankRows& peer : sends_) {
     std::uint64_t* end = pack(source_columns, peer.rows, leaving);
-    if (peer.rank != own_rank_)
-      MPI_Isend(leaving, message_length(static_cast<std::size_t>(end - leaving)), MPI_UINT64_T, peer.rank, tag_,
-                handle_, &transfer_.requests.emplace_back());
+    if (peer.rank != own_rank_) {
+      const auto words = static_cast<std::size_t>(end - leaving);
+      communicator_->note(TrafficKind::message_sent, words * word_bytes);
+      MPI_Isend(leaving, message_length(words), MPI_UINT64_T, peer.rank, tag_, communicator_->handle(),
+                &transfer_.requests.emplace_back());
+    }
     leaving = end;
   }
 }
@@ -221,6 +227,13 @@ void ExchangePlan::renumber_received_rows(std::span<const std::int32_t> new_row)
 void ExchangePlan::renumber_sent_rows(std::span<const std::int32_t> new_row) {
   assert(!transfer_.under_way);
   renumber(sends_, new_row);
+}
+
+void ExchangePlan::number_received_rows() {
+  assert(!transfer_.under_way);
+  std::int32_t next = 0;
+  for (RankRows& peer : receives_)
+    for (std::int32_t& row : peer.rows) row = next++;
 }
 
 std::span<const RankRows> ExchangePlan::sends() const {

@@ -48,6 +48,8 @@ class ExchangePlan {
   /// Applies new_row[old_row] to the receive (send) rows: for callers that reorder their arrays after the plan is made.
   void renumber_received_rows(std::span<const std::int32_t> new_row);
   void renumber_sent_rows(std::span<const std::int32_t> new_row);
+  /// Stores what is received one behind the other from row 0 on, in the order of the ranks and of their rows.
+  void number_received_rows();
 
   std::span<const RankRows> sends() const;
   std::span<const RankRows> receives() const;
@@ -80,7 +82,7 @@ class ExchangePlan {
 
   void count_rows();
 
-  MPI_Comm handle_ = MPI_COMM_NULL;
+  const Communicator* communicator_ = nullptr;
   int own_rank_ = -1;
   int tag_ = 0;
   std::vector<RankRows> sends_, receives_;  // ascending ranks, none without rows

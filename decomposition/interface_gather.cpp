@@ -34,6 +34,7 @@ InterfaceGather::InterfaceGather(const Communicator& communicator, std::span<con
   }
   gather_.renumber_received_rows(sorted_place);
   scatter_ = gather_.reversed(tag + 1);
+  scatter_.number_received_rows();
 }
 
 std::int32_t InterfaceGather::index_of(std::int64_t id) const {

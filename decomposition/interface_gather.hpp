@@ -29,10 +29,14 @@ class InterfaceGather {
   /// At the owner the position of `id` among them, -1 if it is not there.
   std::int32_t index_of(std::int64_t id) const;
 
+  /// The messages of a gather, and with sends and receives exchanged, of a scatter.
+  const ExchangePlan& plan() const { return gather_; }
+
   /// Sends this rank's rows of the columns to the owner, where finish_gather stores them in ids() order.
   void start_gather(std::span<const void* const> columns) { gather_.start(columns); }
   void finish_gather(std::span<void* const> gathered) { gather_.finish(gathered); }
-  /// Sends the owner's results (ids() order) back; finish_scatter stores them in the rows they belong to.
+  /// Sends the owner's results (ids() order) back; finish_scatter stores them in the order in which this rank named its
+  /// rows: there are few of them.
   void start_scatter(std::span<const void* const> results) { scatter_.start(results); }
   void finish_scatter(std::span<void* const> columns) { scatter_.finish(columns); }
 

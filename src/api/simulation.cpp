@@ -37,9 +37,9 @@ struct Simulation::Content {
 
   Content(MPI_Comm given, const sphdrop::Case& input, const Results* results, const RecordedRunOptions& options)
       : communicator(given), end(input.time.end) {
-    const InitialState initial = build_initial_state(input);
+    InitialState initial = build_initial_state(input);
     if (results != nullptr)
-      recorded.emplace(communicator, input, initial, options);
+      recorded.emplace(communicator, input, std::move(initial), options);
     else
       unrecorded.emplace(communicator, input, initial.fluid, initial.solid);
     arrive();

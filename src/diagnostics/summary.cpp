@@ -159,6 +159,17 @@ void write_time(Text& text, const RunSummary& summary) {
                fmt::format("{:.1f} ns ({} particles, {} steps, {} rank{})", 1e9 * summary.wall_time / updates,
                            summary.particles, steps, summary.ranks, summary.ranks == 1 ? "" : "s"));
   text.entry("load, largest / mean", fmt::format("{:.3f}", summary.load_imbalance));
+  if (summary.peak_memory > 0.0)
+    text.entry("memory, most of a rank", fmt::format("{:.1f} MB", 1e-6 * summary.peak_memory));
+}
+
+void write_traffic(Text& text, const std::vector<RankTraffic>& traffic) {
+  text.row("{:<22}{:>8}{:>10}{:>10}{:>12}{:>10}{:>13}{:>10}", "traffic of a rank", "times", "messages", "kB",
+           "most mess.", "most kB", "collectives", "kB");
+  for (const RankTraffic& t : traffic)
+    text.row("  {:<20}{:>8}{:>10.2f}{:>10.3f}{:>12.2f}{:>10.3f}{:>13.2f}{:>10.3f}", "a " + t.occasion, t.times,
+             t.messages, 1e-3 * t.bytes, t.most_messages, 1e-3 * t.most_bytes, t.collectives,
+             1e-3 * t.collective_bytes);
 }
 
 }  // namespace
@@ -187,6 +198,7 @@ std::string summary_text(const RunSummary& summary) {
   if (summary.momentum) write_momentum(text, *summary.momentum);
   if (!summary.energy.empty()) write_energy(text, summary.energy, summary.initial_kinetic_energy);
   write_time(text, summary);
+  if (summary.ranks > 1 && !summary.traffic.empty()) write_traffic(text, summary.traffic);
   text.row("state hash {:016x}", summary.state_hash);
   return text.take();
 }

@@ -30,6 +30,17 @@ struct PhaseTime {
   double seconds = 0;
 };
 
+/// What ranks exchange whenever something happens, each number of one time.
+struct RankTraffic {
+  std::string occasion;            ///< "step"
+  std::int64_t times = 0;          ///< how often it happened
+  double messages = 0, bytes = 0;  ///< sent and received by a rank, mean over the ranks
+  double most_messages = 0;        ///< of the rank with the most
+  double most_bytes = 0;           ///< likewise
+  double collectives = 0;          ///< calls that all ranks make together
+  double collective_bytes = 0;     ///< of the rank with the most
+};
+
 /// Everything the summary tells, SI units; what a case does not have stays empty and its lines are left out.
 struct RunSummary {
   double simulated_time = 0;    ///< s
@@ -76,7 +87,9 @@ struct RunSummary {
   std::vector<PhaseTime> phases;
   std::int64_t particles = 0;
   int ranks = 1;
-  double load_imbalance = 1;  ///< the busiest rank's computing time over the mean
+  double load_imbalance = 1;         ///< the busiest rank's computing time over the mean
+  std::vector<RankTraffic> traffic;  ///< of what happened; shown where there are several ranks
+  double peak_memory = 0;            ///< of the rank with the most, bytes; 0: unknown
   std::uint64_t state_hash = 0;
 };
 

@@ -39,11 +39,21 @@ class Field {
   Field(const Field&) = delete;
   Field& operator=(const Field&) = delete;
 
+  /// Gives up the rows: for a derived quantity that the case at hand has no use for.
+  void leave_out() {
+    is_left_out_ = true;
+    for (Column<double>& column : columns) column.resize(0);
+  }
+  bool is_left_out() const { return is_left_out_; }
+
   std::string_view name, unit;
   int components;
   Role roles;
   std::string_view description;
   std::array<Column<double>, 3> columns;
+
+ private:
+  bool is_left_out_ = false;
 };
 
 struct ScalarField : Field {
@@ -86,6 +96,18 @@ struct RowRange {
   std::int32_t begin = 0, end = 0;
 };
 
+/// Calls f(rows) for runs of at most 256 rows, one after the other: what works on a few columns of a run at a time then
+/// finds them in the cache, however many particles there are. All runs but a range's last are whole packs.
+template <class F>
+void for_each_run(std::span<const RowRange> rows, F&& f) {
+  constexpr std::int32_t most_rows = 256;
+  for (const RowRange& range : rows)
+    for (std::int32_t begin = range.begin; begin < range.end; begin += most_rows) {
+      const RowRange run{begin, std::min(begin + most_rows, range.end)};
+      f(std::span<const RowRange>(&run, 1));
+    }
+}
+
 /// Where a row that must never interact sits: so far away that kernels vanish, near enough that squares stay finite.
 inline constexpr double far_away = 1e6;
 
@@ -108,11 +130,12 @@ class ParticleSet {
   }
   std::span<Field* const> fields() const { return fields_; }
 
-  /// Sets the number of rows of every column; new rows hold zeros.
+  /// Sets the number of rows of every column that is not left out; new rows hold zeros.
   void resize(std::size_t rows) {
     id.resize(rows);
     for (Field* field : fields_)
-      for (int c = 0; c < field->components; ++c) field->columns[static_cast<std::size_t>(c)].resize(rows);
+      for (int c = 0; c < field->components && !field->is_left_out(); ++c)
+        field->columns[static_cast<std::size_t>(c)].resize(rows);
   }
 
   /// The columns of all fields that have one of the roles, in the order of declaration.

@@ -27,7 +27,7 @@ bool goes_on(const Communicator& communicator, const std::optional<std::string>&
 
 }  // namespace
 
-RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, const InitialState& initial,
+RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, InitialState initial,
                          const RecordedRunOptions& options)
     : communicator_(communicator),
       directory_(input.output.directory),
@@ -52,6 +52,7 @@ RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, co
   record_->write(communicator, directory_);
 
   simulation_ = std::make_unique<Simulation>(communicator, input, initial.fluid, initial.solid);
+  initial = {};
   const Checkpoint* checkpoint = restart ? &restart->checkpoint : nullptr;
   if (checkpoint != nullptr) taking_up([&] { simulation_->restore(*checkpoint); });
   const RecorderOptions recording{directory_, end_, options.progress, version_text()};
@@ -102,6 +103,19 @@ RunSummary RecordedRun::finish() {
     record_->set("largest_mach_number", summary.drop->largest_mach_number->value);
   record_->set("load_imbalance", summary.load_imbalance);
   for (const PhaseTime& phase : summary.phases) record_->set("seconds in " + phase.name, phase.seconds);
+  for (const RankTraffic& traffic : summary.traffic) {
+    if (traffic.occasion != "step") record_->set(traffic.occasion + "s", traffic.times);
+    const auto set = [&](const char* what, double value) {
+      record_->set(fmt::format("{} a {}", what, traffic.occasion), value);
+    };
+    set("messages", traffic.messages);
+    set("message bytes", traffic.bytes);
+    set("most messages", traffic.most_messages);
+    set("most message bytes", traffic.most_bytes);
+    set("collectives", traffic.collectives);
+    set("collective bytes", traffic.collective_bytes);
+  }
+  record_->set("peak_memory", summary.peak_memory);
   record_->finish("completed", hash);
   record_->write(communicator_, directory_);
   return summary;

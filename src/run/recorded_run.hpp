@@ -40,8 +40,8 @@ struct RecordedRunOptions {
 class RecordedRun {
  public:
   /// Prepares the folder, holds it locked, and sets the simulation up. Throws OutputDirectoryError, RestartError,
-  /// RunRecordError and HistoryError.
-  RecordedRun(const Communicator& communicator, const Case& input, const InitialState& initial,
+  /// RunRecordError and HistoryError. The initial state is let go as soon as each rank has its part of it.
+  RecordedRun(const Communicator& communicator, const Case& input, InitialState initial,
               const RecordedRunOptions& options);
 
   /// Brings the simulation to the present instant, which may then be looked at, and writes what is due. If it is to

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "config/case_file.hpp"
 #include "config/effective_case.hpp"
@@ -57,7 +58,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     say(communicator, stdout, effective_case_text(input));
     return success;
   }
-  const InitialState initial = build_initial_state(input);
+  InitialState initial = build_initial_state(input);
   if (command.action == CommandLine::Action::check) {
     const std::string report = check_case(communicator, input, initial);
     say(communicator, stdout, report);
@@ -76,7 +77,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
                      : someone_watches_stderr() ? Progress::Mode::terminal
                                                 : Progress::Mode::log;
   options.arguments = arguments;
-  RecordedRun run(communicator, input, initial, options);
+  RecordedRun run(communicator, input, std::move(initial), options);
   const Simulation& simulation = run.simulation();
   if (simulation.time() < 0 && !command.quiet)
     say(communicator, stderr,

@@ -151,10 +151,10 @@ void ContactStep::regather(const FluidParticles& fluid, const SolidParticles& so
   move_record(owner);
   fluid_gather_ = InterfaceGather(communicator_, fluid_ids, fluid_rows_, owner, tags::contact_fluid);
   solid_gather_ = InterfaceGather(communicator_, solid_ids, solid_rows_, owner, tags::contact_solid);
-  returned_fluid_x_.assign(fluid.size(), 0.0);
-  returned_fluid_y_.assign(fluid.size(), 0.0);
-  returned_solid_x_.assign(solid.size(), 0.0);
-  returned_solid_y_.assign(solid.size(), 0.0);
+  returned_fluid_x_.assign(fluid_rows_.size(), 0.0);
+  returned_fluid_y_.assign(fluid_rows_.size(), 0.0);
+  returned_solid_x_.assign(solid_rows_.size(), 0.0);
+  returned_solid_y_.assign(solid_rows_.size(), 0.0);
 
   const bool is_owner = owner == communicator_.rank();
   const std::size_t particles = fluid_gather_.ids().size(), vertices = is_owner ? part_.size() : 0;
@@ -321,28 +321,28 @@ void ContactStep::finish(FluidParticles& fluid) {
 }
 
 void ContactStep::accelerate_solid(SolidParticles& solid) const {
-  for (const std::int32_t k : solid_rows_) {
-    const auto row = static_cast<std::size_t>(k);
-    solid.acceleration.x[row] += returned_solid_x_[row] / solid.mass[row];
-    solid.acceleration.y[row] += returned_solid_y_[row] / solid.mass[row];
+  for (std::size_t k = 0; k < solid_rows_.size(); ++k) {
+    const auto row = static_cast<std::size_t>(solid_rows_[k]);
+    solid.acceleration.x[row] += returned_solid_x_[k] / solid.mass[row];
+    solid.acceleration.y[row] += returned_solid_y_[k] / solid.mass[row];
   }
 }
 
 void ContactStep::kick_solid(SolidParticles& solid, double kick) const {
-  for (const std::int32_t k : solid_rows_) {
-    const auto row = static_cast<std::size_t>(k);
+  for (std::size_t k = 0; k < solid_rows_.size(); ++k) {
+    const auto row = static_cast<std::size_t>(solid_rows_[k]);
     const double is_free = 1.0 - solid.is_fixed[row];
-    solid.staggered_velocity.x[row] += kick * (returned_solid_x_[row] / solid.mass[row] * is_free);
-    solid.staggered_velocity.y[row] += kick * (returned_solid_y_[row] / solid.mass[row] * is_free);
+    solid.staggered_velocity.x[row] += kick * (returned_solid_x_[k] / solid.mass[row] * is_free);
+    solid.staggered_velocity.y[row] += kick * (returned_solid_y_[k] / solid.mass[row] * is_free);
   }
 }
 
 void ContactStep::accelerate_liquid(FluidParticles& fluid) {
   fluid_gather_.finish_scatter(std::array<void*, 2>{returned_fluid_x_.data(), returned_fluid_y_.data()});
-  for (const std::int32_t k : fluid_rows_) {
-    const auto row = static_cast<std::size_t>(k);
-    fluid.acceleration.x[row] += returned_fluid_x_[row];
-    fluid.acceleration.y[row] += returned_fluid_y_[row];
+  for (std::size_t k = 0; k < fluid_rows_.size(); ++k) {
+    const auto row = static_cast<std::size_t>(fluid_rows_[k]);
+    fluid.acceleration.x[row] += returned_fluid_x_[k];
+    fluid.acceleration.y[row] += returned_fluid_y_[k];
   }
 }
 

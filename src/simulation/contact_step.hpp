@@ -55,13 +55,18 @@ class ContactStep {
   void accelerate_solid(SolidParticles& solid) const;
   void kick_solid(SolidParticles& solid, double kick) const;
 
-  /// By row, of the step last finished: what finish() added to the liquid's accelerations, m/s2; empty without a solid.
+  /// The liquid's rows that are within reach of the boundary until the next regather().
+  std::span<const std::int32_t> fluid_rows() const { return fluid_rows_; }
+  /// Of those rows, of the step last finished: what finish() added to their accelerations, m/s2.
   std::span<const double> acceleration_x() const { return returned_fluid_x_; }
   std::span<const double> acceleration_y() const { return returned_fluid_y_; }
   /// On every rank, of the step last finished; known only where the drop is rigid, which takes the opposite.
   Load load_on_solid() const { return load_on_solid_; }
 
   int owner() const { return owner_; }
+  /// Who sends the owner what, of liquid and boundary.
+  const InterfaceGather& fluid_gather() const { return fluid_gather_; }
+  const InterfaceGather& solid_gather() const { return solid_gather_; }
   /// At the owner: the part of the boundary that liquid may come near to until the next regather(), as last received,
   /// and the forces on it. If the solid attracts the liquid the part reaches as far as that matters.
   ContactSurface boundary() const { return {solver_.segments(), vertex_x_, vertex_y_}; }

@@ -49,6 +49,8 @@ bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
 
   std::vector<int> destination(x.size());
   for (std::size_t k = 0; k < x.size(); ++k) destination[k] = partition_.owner_of(x[k], y[k]);
+  for (auto* places : {&x, &y}) std::vector<double>().swap(*places);
+  std::vector<std::int32_t>().swap(load);
   const std::size_t fluid_rows = fluid.owned_count();
   migrate(communicator_, fluid, std::span(destination).first(fluid_rows), tags::migration);
   const std::span<const int> solid_destination = std::span(destination).subspan(fluid_rows);
@@ -73,9 +75,8 @@ bool Distribution::solid_changes_ranks(std::span<const int> destination) const {
   return communicator_.max(static_cast<std::int64_t>(leaves ? 1 : 0)) > 0;
 }
 
-void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
+std::int32_t Distribution::sort_fluid(FluidParticles& fluid) const {
   const std::size_t owned = fluid.size();
-  // Rows near other ranks last; within the two groups by cell, so that neighbours are near in memory.
   struct Key {
     bool border;
     std::int64_t cell_y, cell_x, id;
@@ -97,9 +98,16 @@ void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
   std::vector<std::int32_t> order(owned);
   std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.row; });
   reorder(fluid, order);
-  const auto inner = static_cast<std::int32_t>(
-      std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.border; }) - keys.begin());
+  return static_cast<std::int32_t>(std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.border; }) -
+                                   keys.begin());
+}
 
+void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
+  const std::size_t owned = fluid.size();
+  // The old lists first: old and new together would be the most memory that a run takes.
+  inner_fluid_ = {};
+  border_fluid_ = {};
+  const std::int32_t inner = sort_fluid(fluid);
   fluid_halo_ = make_halo(communicator_, fluid, fluid.position, partition_, range_.list_reach(), tags::fluid_halo);
   // The halo of detection reaches the circles that overlap a particle's own, 4h away.
   wide_halo_ =

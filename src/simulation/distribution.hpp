@@ -45,6 +45,8 @@ class Distribution {
 
   ExchangePlan& fluid_halo() { return fluid_halo_; }
   ExchangePlan& solid_halo() { return solid_halo_; }
+  const ExchangePlan& fluid_halo() const { return fluid_halo_; }
+  const ExchangePlan& solid_halo() const { return solid_halo_; }
   /// Positions within 4h + skin, which surface detection looks at: what arrives is stored behind the owned rows.
   ExchangePlan& wide_halo() { return wide_halo_; }
 
@@ -57,6 +59,9 @@ class Distribution {
 
  private:
   bool solid_changes_ranks(std::span<const int> destination) const;
+  /// Rows near other ranks last; within the two groups by cell, so that neighbours are near in memory. Returns how many
+  /// are not near others.
+  std::int32_t sort_fluid(FluidParticles& fluid) const;
   void make_fluid_ghosts(FluidParticles& fluid);
   void make_solid_ghosts(SolidParticles& solid);
 

@@ -20,15 +20,25 @@ bool Simulation::has_density_diffusion() const {
 
 void Simulation::predict_liquid() {
   if (gauge_.is_enabled()) gauge_.relax(fluid_, steps_.previous);
+  const std::int64_t interval = case_.fluid.density_correction_interval;
+  const bool is_corrected = case_.fluid.density_treatment == DensityTreatment::moving_least_squares && interval > 0 &&
+                            step_ > 0 && step_ % interval == 0;
+  const auto make_ready = [&](std::span<const RowRange> rows) {
+    set_liquid_pressure(rows);
+    fluid_sweep_.pack(fluid_, rows, gauge_.pressure());
+  };
+  if (!is_corrected && !has_density_diffusion()) {
+    for_each_run(fluid_.owned, [&](std::span<const RowRange> rows) {
+      predict(fluid_, rows, steps_.previous);
+      make_ready(rows);
+    });
+    return;
+  }
   predict(fluid_, steps_.previous);
   timer_.lap(Phase::update);
-  const std::int64_t interval = case_.fluid.density_correction_interval;
-  const bool is_corrected = case_.fluid.density_treatment == DensityTreatment::moving_least_squares;
-  if (is_corrected && interval > 0 && step_ > 0 && step_ % interval == 0) correct_density();
+  if (is_corrected) correct_density();
   if (has_density_diffusion()) find_density_gradients();
-
-  set_liquid_pressure(fluid_.owned);
-  fluid_sweep_.pack(fluid_, fluid_.owned, gauge_.pressure());
+  for_each_run(fluid_.owned, make_ready);
 }
 
 void Simulation::set_liquid_pressure(std::span<const RowRange> rows) {

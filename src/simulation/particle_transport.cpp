@@ -23,10 +23,17 @@ void permute(Column<double>& column, std::span<const std::int32_t> order, std::v
 
 void migrate(const Communicator& communicator, ParticleSet& particles, std::span<const int> destination, int tag) {
   std::map<int, RankRows> by_rank;
+  std::vector<std::int32_t> staying;  // ascending
+  staying.reserve(destination.size());
   std::size_t k = 0;
   particles.for_each_owned([&](std::size_t row) {
-    RankRows& rows = by_rank[destination[k]];
-    rows.rank = destination[k++];
+    const int rank = destination[k++];
+    if (rank == communicator.rank()) {
+      staying.push_back(static_cast<std::int32_t>(row));
+      return;
+    }
+    RankRows& rows = by_rank[rank];
+    rows.rank = rank;
     rows.rows.push_back(static_cast<std::int32_t>(row));
   });
   assert(k == destination.size());
@@ -37,23 +44,31 @@ void migrate(const Communicator& communicator, ParticleSet& particles, std::span
 
   const std::size_t received = plan.received_row_count();
   const std::vector<Column<double>*> columns = particles.columns_with(Role::state);
-  Column<std::int64_t> new_id;
-  new_id.resize(received);
-  std::vector<Column<double>> arrived(columns.size());
+  std::vector<std::int64_t> new_id(received);
+  std::vector<std::vector<double>> arrived(columns.size(), std::vector<double>(received));
   std::vector<const void*> sources{particles.id.data()};
   std::vector<void*> targets{new_id.data()};
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    arrived[c].resize(received);
     sources.push_back(columns[c]->data());
     targets.push_back(arrived[c].data());
   }
   plan.start(sources);
   plan.finish(targets);
 
-  particles.resize(received);
-  std::copy(new_id.begin(), new_id.end(), particles.id.begin());
-  for (std::size_t c = 0; c < columns.size(); ++c) std::copy(arrived[c].begin(), arrived[c].end(), columns[c]->begin());
-  particles.owned.assign(received > 0 ? 1 : 0, {0, static_cast<std::int32_t>(received)});
+  // Those that stay close up, the others follow.
+  const auto close_up = [&](auto& column) {
+    for (std::size_t place = 0; place < staying.size(); ++place)
+      column[place] = column[static_cast<std::size_t>(staying[place])];
+  };
+  close_up(particles.id);
+  for (Column<double>* column : columns) close_up(*column);
+  const std::size_t size = staying.size() + received;
+  particles.resize(size);
+  const auto end_of_staying = static_cast<std::ptrdiff_t>(staying.size());
+  std::copy(new_id.begin(), new_id.end(), particles.id.begin() + end_of_staying);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    std::copy(arrived[c].begin(), arrived[c].end(), columns[c]->begin() + end_of_staying);
+  particles.owned.assign(size > 0 ? 1 : 0, {0, static_cast<std::int32_t>(size)});
   particles.ghosts.clear();
 }
 

@@ -1,6 +1,7 @@
 #include "simulation/recorder.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "diagnostics/frequency.hpp"
 #include "diagnostics/theory.hpp"
+#include "simulation/rank_traffic.hpp"
 #include "simulation/snapshot_table.hpp"
 #include "time_integration/due_time.hpp"
 
@@ -34,6 +36,12 @@ std::optional<double> if_known(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
+/// The most memory that this process has held at a time, bytes; 0: unknown.
+double peak_memory() {
+  rusage usage{};
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * static_cast<double>(usage.ru_maxrss) : 0.0;
+}
+
 double elapsed(std::chrono::steady_clock::time_point since) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
 }
@@ -55,6 +63,7 @@ Recorder::Recorder(Simulation& simulation, const RecorderOptions& options, const
     history_.emplace(checkpoint == nullptr ? HistoryWriter::create(options_.directory, columns)
                                            : HistoryWriter::resume(options_.directory, columns, simulation_.time()));
   });
+  simulation.timer().lap(Phase::output);
 }
 
 std::vector<CheckpointNumbers> Recorder::save() const {
@@ -340,6 +349,8 @@ RunSummary Recorder::summary() const {
       mean += all[static_cast<std::size_t>(rank) * seconds.size() + k];
     r.phases.push_back({std::string(phase_names[k]), mean / communicator.size()});
   }
+  r.traffic = traffic_of_ranks(simulation_, r.steps - r.first_step + 1);
+  r.peak_memory = communicator.max(peak_memory());
   r.particles = simulation_.fluid_total() + simulation_.solid_total();
   r.ranks = communicator.size();
   r.state_hash = hash_;

@@ -19,11 +19,16 @@ void ShiftingStep::find(const FluidParticles& fluid, const Distribution& distrib
   concentration_gradients(fluid, distribution.border_fluid(), parameters_, x_, y_, concentration_);
   const double duration = static_cast<double>(interval_) * step;
   const TensorField& surface = fluid.surface_orientation;
-  const std::span<const double> force_x = contact.acceleration_x(), force_y = contact.acceleration_y();
+  for (auto* column : {&contact_x_, &contact_y_}) column->assign(fluid.size(), 0.0);
+  for (std::size_t k = 0; k < contact.fluid_rows().size(); ++k) {
+    const auto row = static_cast<std::size_t>(contact.fluid_rows()[k]);
+    contact_x_[row] = contact.acceleration_x()[k];
+    contact_y_[row] = contact.acceleration_y()[k];
+  }
   fluid.for_each_owned([&](std::size_t row) {
     Vector displacement = shift({x_[row], y_[row]}, largest_speed, duration, parameters_, surface.xx[row],
                                 surface.xy[row], surface.yy[row]);
-    if (!force_x.empty()) displacement = without_component(displacement, {force_x[row], force_y[row]});
+    displacement = without_component(displacement, {contact_x_[row], contact_y_[row]});
     x_[row] = displacement.x;
     y_[row] = displacement.y;
     // Near the surface the sums lack neighbours.

@@ -50,7 +50,7 @@ class ShiftingStep {
   bool is_found_ = false;
   double work_ = 0;
   std::vector<double> x_, y_;  // by row: gradients, then displacements
-  std::vector<double> concentration_, returned_;
+  std::vector<double> concentration_, returned_, contact_x_, contact_y_;
 };
 
 }  // namespace sphdrop

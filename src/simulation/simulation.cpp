@@ -146,18 +146,24 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
       maxima_(communicator),
       drop_centre_(initial_fluid.centre),
       time_(0.0 - input.drop.relaxation_time),
-      energy_of_shift_(-infinity) {
+      energy_of_shift_(-infinity),
+      timer_(communicator) {
   fluid_ghosted_ = fluid_.columns_with(Role::ghosted);
   if (has_density_diffusion()) {
     fluid_ghosted_.push_back(&fluid_.density_gradient.x);
     fluid_ghosted_.push_back(&fluid_.density_gradient.y);
+  } else {
+    fluid_.density_gradient.leave_out();
+    fluid_.density_diffusion.leave_out();
   }
+  if (!shifting_.is_enabled()) fluid_.surface_orientation.leave_out();
   solid_ghosted_ = solid_step_->ghosted(solid_);
   correction_ghosted_ = {&fluid_.position.x, &fluid_.position.y, &fluid_.density.columns[0]};
   take_initial_state(initial_fluid, initial_solid);
   if (rigid_body_.is_enabled()) rigid_body_.take_places(fluid_);
   timer_.start();
   post_maxima({largest_squared_speed(fluid_)}, {largest_squared_speed(solid_)}, 0);
+  timer_.lap(Phase::communication);
 }
 
 void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSolid& solid) {
@@ -249,6 +255,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   const MotionMaxima motion = motion_maxima(fluid_, infinity, boxes_wanted());
   maxima_.finish();
   settled_ = {};
+  timer_.start();
   post_maxima({motion.squared_speed, 0, motion.squared_detection_displacement, {}, motion.detection_displacements},
               {largest_squared_speed(solid_)}, 0);
 }
@@ -310,9 +317,10 @@ void Simulation::evaluate() {
   start_exchange(distribution_.fluid_halo(), fluid_ghosted_);
   start_exchange(distribution_.solid_halo(), solid_ghosted_);
   if (detection_is_due_) {
+    timer_.lap(Phase::communication);
     surface_tension_.detect(fluid_, solid_, distribution_, contact_, gauge_.pressure());
     ++detections_;
-    timer_.lap(Phase::surface_tension);
+    timer_.lap(Phase::detection);
   }
   if (surface_tension_.is_enabled()) surface_tension_.start(fluid_);
   contact_.start(fluid_, solid_);
@@ -321,7 +329,8 @@ void Simulation::evaluate() {
   steps_.next = next_step_length(squared_speed_now);
   sweep_what_needs_no_ghosts();
   contact_.receive();
-  timer_.lap(Phase::contact);
+  if (surface_tension_.is_enabled()) surface_tension_.receive();
+  timer_.lap(Phase::communication);
   if (surface_tension_.is_enabled()) surface_tension_.work(contact_, gauge_.pressure());
   if (gauge_.is_enabled()) gauge_.start(fluid_, surface_tension_.enclosed_area());
   timer_.lap(Phase::surface_tension);

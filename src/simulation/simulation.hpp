@@ -111,6 +111,7 @@ class Simulation {
   std::int64_t redistributions() const { return redistributions_; }
   std::int64_t detections() const { return detections_; }
   PhaseTimer& timer() { return timer_; }
+  const PhaseTimer& timer() const { return timer_; }
 
  private:
   void take_initial_state(const InitialFluid& fluid, const InitialSolid& solid);

@@ -236,8 +236,8 @@ void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& cont
   const int owner =
       is_wetting_ ? contact.owner() : rank_with_most(communicator_, static_cast<std::int64_t>(band_rows_.size()));
   gather_ = InterfaceGather(communicator_, ids, band_rows_, owner, tags::surface);
-  returned_x_.assign(fluid.size(), 0.0);
-  returned_y_.assign(fluid.size(), 0.0);
+  returned_x_.assign(band_rows_.size(), 0.0);
+  returned_y_.assign(band_rows_.size(), 0.0);
 
   const std::size_t gathered = gather_.ids().size();
   x_.resize(gathered);
@@ -278,8 +278,11 @@ void SurfaceTensionStep::start(const FluidParticles& fluid) {
   gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
 }
 
-void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
+void SurfaceTensionStep::receive() {
   gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
+}
+
+void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
   if (owner() == communicator_.rank()) {
     update_points();
     if (form_ == SurfaceTensionForm::conservative)
@@ -302,10 +305,10 @@ void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
 
 void SurfaceTensionStep::finish(FluidParticles& fluid) {
   gather_.finish_scatter(std::array<void*, 2>{returned_x_.data(), returned_y_.data()});
-  for (const std::int32_t k : band_rows_) {
-    const auto row = static_cast<std::size_t>(k);
-    fluid.acceleration.x[row] += returned_x_[row];
-    fluid.acceleration.y[row] += returned_y_[row];
+  for (std::size_t k = 0; k < band_rows_.size(); ++k) {
+    const auto row = static_cast<std::size_t>(band_rows_[k]);
+    fluid.acceleration.x[row] += returned_x_[k];
+    fluid.acceleration.y[row] += returned_y_[k];
   }
 }
 

@@ -33,8 +33,8 @@ struct SurfaceReport {
   double base_width = 0;  ///< B, m; 0 unless the solid attracts the liquid
 };
 
-/// In a step: start(), work(), finish(). Connectivity is found by detect() and kept; it is a function of the particles'
-/// positions at detection alone, which travel with them, so redistributing or restarting does not change it.
+/// In a step: start(), receive(), work(), finish(). Connectivity is found by detect() and kept; it is a function of the
+/// particles' positions at detection alone, which travel with them, so redistributing or restarting does not change it.
 ///
 /// Where the solid attracts the liquid (method.md, 6b) the contact's owner is this one's too: there the boundary is at
 /// hand and takes its part of the forces. Otherwise contact is never asked for anything.
@@ -61,6 +61,8 @@ class SurfaceTensionStep {
 
   /// Sends the band's positions to the owner.
   void start(const FluidParticles& fluid);
+  /// Waits for them.
+  void receive();
   /// At the owner: surface points, forces and their shares; starts sending them back. The drop's `gauge_pressure` (Pa)
   /// pushes its surface outwards. If the solid attracts the liquid, contact must have received, and gets forces on the
   /// boundary.
@@ -74,6 +76,8 @@ class SurfaceTensionStep {
                                 const ContactStep& contact);
 
   int owner() const { return gather_.owner(); }
+  /// Who sends the owner what.
+  const InterfaceGather& gather() const { return gather_; }
   /// Length of curve that came or went at once as the surface was detected anew, so far, m: no force did that work. The
   /// same on every rank.
   double reconnected_length() const { return reconnected_length_; }

@@ -8,6 +8,17 @@
 
 namespace sphdrop {
 
+namespace {
+
+/// Room for `needed` entries; where it is short, for as many as the list will have if it goes on as it is, `done` of it
+/// being made. Doubling would hold nearly twice the list for a moment, which is the largest thing there is.
+void make_room(std::vector<std::int32_t>& entries, std::size_t needed, double done) {
+  if (needed <= entries.capacity()) return;
+  entries.reserve(std::max(needed, static_cast<std::size_t>(1.05 * static_cast<double>(needed) / done)));
+}
+
+}  // namespace
+
 SlicedNeighbours SlicedNeighbours::build(const ParticleSet& particles, const Column<double>& x, const Column<double>& y,
                                          RowRange rows, double reach) {
   SlicedNeighbours list;
@@ -41,6 +52,8 @@ SlicedNeighbours SlicedNeighbours::build(const ParticleSet& particles, const Col
       slice.entries = std::max(slice.entries, static_cast<std::int32_t>(mine.size()));
       list.pairs += static_cast<std::int64_t>(mine.size());
     }
+    make_room(list.neighbours, list.neighbours.size() + static_cast<std::size_t>(slice.entries) * block_size,
+              static_cast<double>(slice.first_row + slice.rows - rows.begin) / (rows.end - rows.begin));
     list.neighbours.resize(list.neighbours.size() + static_cast<std::size_t>(slice.entries) * block_size, padding_row);
     for (std::int32_t lane = 0; lane < slice.rows; ++lane) {
       const auto& mine = found[static_cast<std::size_t>(lane)];

@@ -96,15 +96,13 @@ void add_rows(std::span<const RowRange> rows, const VectorField& a, const Vector
 }
 
 /// The box about a - b over the rows.
-DisplacementBox box_about(std::span<const RowRange> rows, const VectorField& a, const VectorField& b) {
-  BoxMaximum box;
+void add_rows(std::span<const RowRange> rows, const VectorField& a, const VectorField& b, BoxMaximum& box) {
   for (const RowRange& range : rows) {
     std::int64_t row = range.begin;
     for (; row + pack_size <= range.end; row += pack_size)
       box.add(load(a.x.data() + row) - load(b.x.data() + row), load(a.y.data() + row) - load(b.y.data() + row));
     for (; row < range.end; ++row) box.add(a.x.data()[row] - b.x.data()[row], a.y.data()[row] - b.y.data()[row]);
   }
-  return box.value();
 }
 
 MotionMaxima finish(const SquaredMaximum& speed, const SquaredMaximum& moved, const SquaredMaximum& detected,
@@ -119,21 +117,29 @@ MotionMaxima finish(const SquaredMaximum& speed, const SquaredMaximum& moved, co
 
 }  // namespace
 
-void predict(FluidParticles& f, double previous_step) {
+void predict(FluidParticles& f, std::span<const RowRange> rows, double previous_step) {
   const double half = 0.5 * previous_step;
-  advance_column(f.owned, half, f.acceleration.x, f.staggered_velocity.x, f.velocity.x);
-  advance_column(f.owned, half, f.acceleration.y, f.staggered_velocity.y, f.velocity.y);
-  advance_column(f.owned, half, f.density_rate.columns[0], f.staggered_density.columns[0], f.density.columns[0]);
+  advance_column(rows, half, f.acceleration.x, f.staggered_velocity.x, f.velocity.x);
+  advance_column(rows, half, f.acceleration.y, f.staggered_velocity.y, f.velocity.y);
+  advance_column(rows, half, f.density_rate.columns[0], f.staggered_density.columns[0], f.density.columns[0]);
+}
+
+void predict(FluidParticles& f, double previous_step) {
+  predict(f, f.owned, previous_step);
+}
+
+void predict(SolidParticles& s, std::span<const RowRange> rows, double previous_step) {
+  const double half = 0.5 * previous_step;
+  advance_column(rows, half, s.acceleration.x, s.staggered_velocity.x, s.velocity.x);
+  advance_column(rows, half, s.acceleration.y, s.staggered_velocity.y, s.velocity.y);
+  advance_column(rows, half, s.density_rate.columns[0], s.staggered_density.columns[0], s.density.columns[0]);
+  for (std::size_t c = 0; c < 3; ++c)
+    advance_column(rows, half, s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
+                   s.deviatoric_stress.columns[c]);
 }
 
 void predict(SolidParticles& s, double previous_step) {
-  const double half = 0.5 * previous_step;
-  advance_column(s.owned, half, s.acceleration.x, s.staggered_velocity.x, s.velocity.x);
-  advance_column(s.owned, half, s.acceleration.y, s.staggered_velocity.y, s.velocity.y);
-  advance_column(s.owned, half, s.density_rate.columns[0], s.staggered_density.columns[0], s.density.columns[0]);
-  for (std::size_t c = 0; c < 3; ++c)
-    advance_column(s.owned, half, s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
-                   s.deviatoric_stress.columns[c]);
+  predict(s, s.owned, previous_step);
 }
 
 void predict_velocity(SolidParticles& s, double previous_step) {
@@ -142,50 +148,79 @@ void predict_velocity(SolidParticles& s, double previous_step) {
   advance_column(s.owned, half, s.acceleration.y, s.staggered_velocity.y, s.velocity.y);
 }
 
+namespace {
+
+/// Motion of the liquid, run by run.
+class FluidMotion {
+ public:
+  explicit FluidMotion(BoxesWanted boxes) : boxes_(boxes) {}
+
+  void add(const FluidParticles& f, std::span<const RowRange> rows) {
+    add_rows(rows, f.staggered_velocity, speed_);
+    add_rows(rows, f.position, f.list_position, moved_);
+    add_rows(rows, f.position, f.detection_position, detected_);
+    if (boxes_.displacements) add_rows(rows, f.position, f.list_position, box_);
+    if (boxes_.detection_displacements) add_rows(rows, f.position, f.detection_position, detection_box_);
+  }
+  MotionMaxima value(double speed_limit) const {
+    MotionMaxima maxima = finish(speed_, moved_, detected_, speed_limit);
+    if (boxes_.displacements) maxima.displacements = box_.value();
+    if (boxes_.detection_displacements) maxima.detection_displacements = detection_box_.value();
+    return maxima;
+  }
+
+ private:
+  BoxesWanted boxes_;
+  SquaredMaximum speed_, moved_, detected_;
+  BoxMaximum box_, detection_box_;
+};
+
+}  // namespace
+
 MotionMaxima motion_maxima(const FluidParticles& f, double speed_limit, BoxesWanted boxes) {
-  SquaredMaximum speed, moved, detected;
-  add_rows(f.owned, f.staggered_velocity, speed);
-  add_rows(f.owned, f.position, f.list_position, moved);
-  add_rows(f.owned, f.position, f.detection_position, detected);
-  MotionMaxima maxima = finish(speed, moved, detected, speed_limit);
-  if (boxes.displacements) maxima.displacements = box_about(f.owned, f.position, f.list_position);
-  if (boxes.detection_displacements)
-    maxima.detection_displacements = box_about(f.owned, f.position, f.detection_position);
-  return maxima;
+  FluidMotion motion(boxes);
+  for_each_run(f.owned, [&](std::span<const RowRange> rows) { motion.add(f, rows); });
+  return motion.value(speed_limit);
 }
 
 MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_limit, BoxesWanted boxes) {
-  advance_column(f.owned, steps.kick(), f.acceleration.x, f.staggered_velocity.x, f.staggered_velocity.x);
-  advance_column(f.owned, steps.kick(), f.acceleration.y, f.staggered_velocity.y, f.staggered_velocity.y);
-  advance_column(f.owned, steps.kick(), f.density_rate.columns[0], f.staggered_density.columns[0],
-                 f.staggered_density.columns[0]);
-  advance_column(f.owned, steps.next, f.staggered_velocity.x, f.position.x, f.position.x);
-  advance_column(f.owned, steps.next, f.staggered_velocity.y, f.position.y, f.position.y);
-  accumulate_energy(f.owned, steps.next, f.mass, f.dissipation_rate, f.dissipated_energy);
-  return motion_maxima(f, speed_limit, boxes);
+  FluidMotion motion(boxes);
+  for_each_run(f.owned, [&](std::span<const RowRange> rows) {
+    advance_column(rows, steps.kick(), f.acceleration.x, f.staggered_velocity.x, f.staggered_velocity.x);
+    advance_column(rows, steps.kick(), f.acceleration.y, f.staggered_velocity.y, f.staggered_velocity.y);
+    advance_column(rows, steps.kick(), f.density_rate.columns[0], f.staggered_density.columns[0],
+                   f.staggered_density.columns[0]);
+    advance_column(rows, steps.next, f.staggered_velocity.x, f.position.x, f.position.x);
+    advance_column(rows, steps.next, f.staggered_velocity.y, f.position.y, f.position.y);
+    accumulate_energy(rows, steps.next, f.mass, f.dissipation_rate, f.dissipated_energy);
+    motion.add(f, rows);
+  });
+  return motion.value(speed_limit);
 }
 
 MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_limit) {
-  for (const RowRange& range : s.owned)
-    for (std::int32_t row = range.begin; row < range.end; ++row) {
-      const auto k = static_cast<std::size_t>(row);
-      s.acceleration.x[k] *= 1.0 - s.is_fixed[k];
-      s.acceleration.y[k] *= 1.0 - s.is_fixed[k];
-    }
-  advance_column(s.owned, steps.kick(), s.acceleration.x, s.staggered_velocity.x, s.staggered_velocity.x);
-  advance_column(s.owned, steps.kick(), s.acceleration.y, s.staggered_velocity.y, s.staggered_velocity.y);
-  advance_column(s.owned, steps.kick(), s.density_rate.columns[0], s.staggered_density.columns[0],
-                 s.staggered_density.columns[0]);
-  for (std::size_t c = 0; c < 3; ++c)
-    advance_column(s.owned, steps.kick(), s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
-                   s.staggered_deviatoric_stress.columns[c]);
-  advance_column(s.owned, steps.next, s.staggered_velocity.x, s.position.x, s.position.x);
-  advance_column(s.owned, steps.next, s.staggered_velocity.y, s.position.y, s.position.y);
-  accumulate_energy(s.owned, steps.next, s.mass, s.dissipation_rate, s.dissipated_energy);
-  accumulate_energy(s.owned, steps.next, s.mass, s.artificial_stress_power, s.artificial_stress_work);
   SquaredMaximum speed, moved, none;
-  add_rows(s.owned, s.staggered_velocity, speed);
-  add_rows(s.owned, s.position, s.list_position, moved);
+  for_each_run(s.owned, [&](std::span<const RowRange> rows) {
+    for (const RowRange& range : rows)
+      for (std::int32_t row = range.begin; row < range.end; ++row) {
+        const auto k = static_cast<std::size_t>(row);
+        s.acceleration.x[k] *= 1.0 - s.is_fixed[k];
+        s.acceleration.y[k] *= 1.0 - s.is_fixed[k];
+      }
+    advance_column(rows, steps.kick(), s.acceleration.x, s.staggered_velocity.x, s.staggered_velocity.x);
+    advance_column(rows, steps.kick(), s.acceleration.y, s.staggered_velocity.y, s.staggered_velocity.y);
+    advance_column(rows, steps.kick(), s.density_rate.columns[0], s.staggered_density.columns[0],
+                   s.staggered_density.columns[0]);
+    for (std::size_t c = 0; c < 3; ++c)
+      advance_column(rows, steps.kick(), s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
+                     s.staggered_deviatoric_stress.columns[c]);
+    advance_column(rows, steps.next, s.staggered_velocity.x, s.position.x, s.position.x);
+    advance_column(rows, steps.next, s.staggered_velocity.y, s.position.y, s.position.y);
+    accumulate_energy(rows, steps.next, s.mass, s.dissipation_rate, s.dissipated_energy);
+    accumulate_energy(rows, steps.next, s.mass, s.artificial_stress_power, s.artificial_stress_work);
+    add_rows(rows, s.staggered_velocity, speed);
+    add_rows(rows, s.position, s.list_position, moved);
+  });
   return finish(speed, moved, none, speed_limit);
 }
 

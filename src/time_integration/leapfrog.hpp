@@ -63,6 +63,9 @@ MotionMaxima motion_maxima(const FluidParticles& fluid, double speed_limit, Boxe
 /// Velocity and density (and deviatoric stress) of the owned rows at t from the staggered ones.
 void predict(FluidParticles& fluid, double previous_step);
 void predict(SolidParticles& solid, double previous_step);
+/// The same of some rows.
+void predict(FluidParticles& fluid, std::span<const RowRange> rows, double previous_step);
+void predict(SolidParticles& solid, std::span<const RowRange> rows, double previous_step);
 
 /// Velocity alone, of a solid whose stress follows from its position.
 void predict_velocity(SolidParticles& solid, double previous_step);

@@ -19,6 +19,7 @@ RUN: dict[str, str] = {
     "cases/sphdrop-sweep table 'solid.length=8 mm;12 mm' 'drop.velocity=[0, -0.5];[0, -1]' > table.csv": "",
     "/usr/bin/python3 cases/compare.py --list": "",
     "/usr/bin/python3 cases/modal_beam.py results/quickstart": "",
+    "/usr/bin/python3 tests/benchmarks/scaling/model.py figure results/scaling.png": "",
 }
 
 # By CTest's names, with a word that the test's file holds.
@@ -50,6 +51,8 @@ TESTED: dict[str, tuple[str, str]] = {
     "build/release/src/sphdrop cases/cantilever/case.cfg --output results/cantilever --restart auto":
         ("cluster.hosts", "oob_tcp_keepalive_time"),
     'cmake -G Ninja -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
+    "/usr/bin/python3 tests/benchmarks/scaling/model.py page": ("benchmarks.scaling_model", "test_its_tables_are_those_of_the_model"),
+    'cmake -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
         ("repository.library", "share/sphdrop/cases/probe"),
     "mpirun -np 2 build/probe/probe cases/quickstart/case.cfg results/probe": ("repository.library", "build/probe"),
 }
@@ -65,5 +68,7 @@ NOT_RUN: dict[str, str] = {
     "cd build/package && cpack && sudo apt install ./sphdrop_*.deb": "it changes the machine; repository.packaging makes the package of another build",
     "pvbatch cases/view/paraview_scene.py results/quickstart --picture scene.png --state scene.pvsm": "ParaView is not among the tests' packages",
     "SPHDROP_LONG_TESTS=1 ctest --preset release --verbose -L 'fault|restart'": "takes most of an hour",
+    "mpirun -n 32 build/release/src/sphdrop cases/oscillating_droplet/case.cfg --set drop.diameter=4e-3 --until 6e-7 --output results/count":
+        "32 ranks on a few cores take a minute",
     "python3 tests/fault/checkpoint_cost.py": "a measurement, of which a test could not judge",
 }

@@ -111,6 +111,19 @@ TEST(Summary, EnergyLedger) {
   EXPECT_EQ(row_of(text, "unaccounted"), "-5.0000 -2.000");
 }
 
+TEST(Summary, TrafficAndMemory) {
+  RunSummary run = full();
+  EXPECT_EQ(summary_text(run).find("traffic"), std::string::npos);
+  EXPECT_EQ(summary_text(run).find("memory"), std::string::npos);
+  run.traffic = {{"step", 1600001, 3.5, 6300.0, 5.0, 8567.0, 1.0, 128.0}};
+  run.peak_memory = 34.04e6;
+  EXPECT_EQ(row_of(summary_text(run), "a step"), "1600001 3.50 6.300 5.00 8.567 1.00 0.128");
+  EXPECT_EQ(value_of(summary_text(run), "memory, most of a rank"), "34.0 MB");
+  // One rank alone has nobody to write to.
+  run.ranks = 1;
+  EXPECT_EQ(summary_text(run).find("traffic"), std::string::npos);
+}
+
 TEST(Summary, WallTimeAndLoad) {
   const std::string text = summary_text(full());
   EXPECT_EQ(row_of(text, "fluid sweep"), "40.000 40.0");
