@@ -8,26 +8,50 @@
 #include "config/parameter_store.hpp"
 #include "config/parameter_table.hpp"
 #include "config/parameter_text.hpp"
+#include "run/particle_file.hpp"
 #include "run/shared_case.hpp"
 
 namespace sphdrop::v1 {
 
+namespace {
+
+std::shared_ptr<const GivenParticles> read_alone(const ParticleRequest& request) {
+  return read_particle_file(request.path, request.path);
+}
+
+}  // namespace
+
+std::shared_ptr<const Case::Content> Case::Content::make(const std::string& text, const std::string& source_name,
+                                                         const std::vector<std::string>& overrides,
+                                                         ParticlesByPath particles, const ParticleReader& read) {
+  ParsedCase parsed = parse_case_text(text, source_name, overrides, [&](const ParticleRequest& request) {
+    auto found = particles.find(request.path);
+    if (found == particles.end()) found = particles.emplace(request.path, read(request)).first;
+    return found->second;
+  });
+  return std::make_shared<const Content>(
+      Content{text, source_name, overrides, std::move(particles), std::move(parsed)});
+}
+
 Case Case::from_text(const std::string& text, const std::vector<std::string>& overrides,
                      const std::string& source_name) {
-  return translated([&] {
-    return Case(std::make_shared<const Content>(
-        Content{text, source_name, overrides, parse_case_text(text, source_name, overrides)}));
-  });
+  return translated([&] { return Case(Content::make(text, source_name, overrides, {}, read_alone)); });
 }
 
 Case Case::from_file(MPI_Comm communicator, const std::string& path, const std::vector<std::string>& overrides) {
-  return from_text(translated([&] { return shared_case_text(Communicator(communicator), path); }), overrides, path);
+  return translated([&] {
+    const Communicator all(communicator);
+    return Case(Content::make(shared_case_text(all, path), path, overrides, {},
+                              [&](const ParticleRequest& request) { return shared_particles(all, request, {}); }));
+  });
 }
 
 Case Case::with(const std::vector<std::string>& overrides) const {
-  std::vector<std::string> all = content_->overrides;
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  return from_text(content_->text, all, content_->source_name);
+  return translated([&] {
+    std::vector<std::string> all = content_->overrides;
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return Case(Content::make(content_->text, content_->source_name, all, content_->particles, read_alone));
+  });
 }
 
 const std::vector<std::string>& Case::warnings() const {

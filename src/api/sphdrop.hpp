@@ -36,9 +36,10 @@ class Error : public std::runtime_error {
 /// A checked case. Overrides are those of --set: "solid.length=12 mm". Mistakes are thrown as Error, all in one text.
 class Case {
  public:
-  /// Collective: rank 0 reads the file.
+  /// Collective: rank 0 reads the file, and the particles that it names.
   static Case from_file(MPI_Comm communicator, const std::string& path, const std::vector<std::string>& overrides = {});
-  /// `source_name` stands before mistakes, and without its ending is the case's name unless the text gives one.
+  /// `source_name` stands before mistakes, and without its ending is the case's name unless the text gives one. A file
+  /// of particles that the text names is read by every rank.
   static Case from_text(const std::string& text, const std::vector<std::string>& overrides = {},
                         const std::string& source_name = "case.cfg");
 

@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "config/given_particles.hpp"
+
 namespace sphdrop {
 
 enum class Mode { paper, modern, fast };
-enum class DropShape { none, round, square, ellipse };
+enum class DropShape { none, round, square, ellipse, particles };
 enum class DropArrangement { rings, lattice };
-enum class DropPlacement { above_solid, centre };
+enum class DropPlacement { above_solid, centre, file };
 enum class DropMaterial { liquid, rigid };
 enum class SolidKind { none, cantilever, fixed_fixed_beam, rigid_wall, polygon, obstacle };
 enum class SolidFormulation { automatic, hypoelastic, cells, total_lagrangian };
@@ -26,11 +28,6 @@ enum class DensityTreatment { none, moving_least_squares, density_diffusion };
 enum class DetectionMotion { absolute, relative };
 enum class Switch { off, on };
 
-/// A place of the plane, m.
-struct Point {
-  double x = 0, y = 0;
-  bool operator==(const Point&) const = default;
-};
 using Points = std::vector<Point>;
 
 /// One section of the case file each. Which key fills which member, its default, range and the paper's symbol stand in
@@ -94,6 +91,9 @@ struct Case {
     double oscillation_radius = 0;    ///< r0, m
     double initial_spin = 0;          ///< of a rigid drop, rad/s, counterclockwise
     double relaxation_time = 0;       ///< s: a liquid drop comes to rest for so long before it starts at t = 0
+    std::string particles_file;       ///< of shape particles; absolute once it has been read
+    std::string particles_checksum;   ///< of its bytes
+    GivenParticlesOfCase given;       ///< what it holds, once it has been read
     /// Moved as one rigid body (Sec. 4.4).
     bool is_rigid() const { return shape != DropShape::none && material == DropMaterial::rigid; }
     /// Has pressure, viscosity and surface tension.

@@ -31,7 +31,8 @@ struct Given {
 
 class CaseReader {
  public:
-  explicit CaseReader(std::string source_name) : source_name_(std::move(source_name)) {}
+  CaseReader(std::string source_name, const ParticleReader& read_particles)
+      : source_name_(std::move(source_name)), read_particles_(read_particles) {}
 
   void take_file(const TomlNode& root);
   void take_overrides(const std::vector<std::string>& overrides);
@@ -56,6 +57,8 @@ class CaseReader {
   void take_several(const TomlNode& array);
   void store_values();
   void store_given(const Parameter& parameter, Which which, Case& values);
+  void take_particles();
+  void take_particles(Case& one, Which which);
   void apply_presets();
   void report_missing(const Parameter& parameter);
   void find_contradictions();
@@ -67,6 +70,7 @@ class CaseReader {
   }
 
   std::string source_name_;
+  const ParticleReader& read_particles_;
   std::map<std::string, Given, std::less<>> given_;
   std::map<std::string, TomlNode, std::less<>> section_headers_;
   std::set<std::string, std::less<>> unusable_;
@@ -188,6 +192,45 @@ void CaseReader::store_values() {
   }
 }
 
+void CaseReader::take_particles(Case& one, Which which) {
+  const auto is_given = [&](std::string_view key) { return given_.contains(key_of(key, which)); };
+  take_shape(one.drop, is_given);
+  if (one.drop.particles_file.empty() || one.drop.shape != DropShape::particles || !read_particles_) return;
+  const std::string key = key_of("drop.particles_file", which);
+  const Given& named = given_.find(key)->second;
+  const bool is_override = !named.override_text.empty();
+  const auto mistake = [&](const std::string& message) {
+    // What follows from the particles is not there.
+    for (const char* spoilt : {"drop.particles_file", "drop.diameter", "drop.placement"})
+      unusable_.insert(key_of(spoilt, which));
+    if (is_override) {
+      mistake_in_override(named.override_text, message);
+    } else {
+      mistake_in_file(named.node, message);
+    }
+  };
+  const std::string path = particle_file_path(one.drop.particles_file, source_name_);
+  try {
+    const std::string wrong =
+        take_given_particles(one, is_given, read_particles_({path, values_.output.directory, which.index}));
+    if (!wrong.empty()) mistake(wrong);
+  } catch (const ParticleFileError& error) {
+    mistake(fmt::format("{} = {} {}", key, quoted(one.drop.particles_file), error.what()));
+    if (!error.is_located) return;
+    const std::string origin = is_override ? fmt::format("--set {}", printable(named.override_text))
+                                           : fmt::format("{}:{}", source_name_, named.node.line);
+    mistakes_.back().text = fmt::format("{} ({}: {})", error.what(), key, origin);
+  }
+}
+
+void CaseReader::take_particles() {
+  for (std::size_t k = 0; k < drop_count_; ++k) {
+    Case one = values_.with_drop(k);
+    take_particles(one, {"drop", k});
+    (k == 0 ? values_.drop : values_.more_drops[k - 1]) = std::move(one.drop);
+  }
+}
+
 // " (drop.diameter: line 7; resolution.spacing: --set; drop.shape: not given)"
 std::string CaseReader::origins(const Finding& finding, Which which) const {
   constexpr std::size_t few = 4;
@@ -273,8 +316,10 @@ void CaseReader::apply_presets() {
 
 ParsedCase CaseReader::finish() {
   store_values();
+  fill_names(values_, source_name_);
+  take_particles();
   apply_presets();
-  fill_derived_defaults(values_, source_name_);
+  fill_derived_defaults(values_);
   find_contradictions();
   if (!mistakes_.empty()) {
     std::stable_sort(mistakes_.begin(), mistakes_.end(),
@@ -289,13 +334,13 @@ ParsedCase CaseReader::finish() {
 }  // namespace
 
 ParsedCase parse_case_text(std::string_view text, const std::string& source_name,
-                           const std::vector<std::string>& overrides) {
+                           const std::vector<std::string>& overrides, const ParticleReader& read_particles) {
   const TomlNode root = parse_toml(text, source_name);
   if (root.members.empty() && overrides.empty()) {
     throw CaseError({fmt::format(
         "{}:1: the case is empty; it must at least say resolution.spacing and time.end, in TOML", source_name)});
   }
-  CaseReader reader(source_name);
+  CaseReader reader(source_name, read_particles);
   reader.take_file(root);
   reader.take_overrides(overrides);
   return reader.finish();

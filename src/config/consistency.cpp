@@ -8,6 +8,7 @@
 
 #include "config/check.hpp"
 #include "config/derived_defaults.hpp"
+#include "config/drop_checks.hpp"
 #include "config/key_suggestion.hpp"
 #include "config/polygon.hpp"
 #include "config/several_drops.hpp"
@@ -55,7 +56,8 @@ Verdict several_drops_not_liquid(const Case& values) {
 }
 
 Verdict height_of_a_drop_above_the_solid(const Case& values) {
-  if (values.drop.centre_y == 0 || !values.has_solid() || values.drop.placement == DropPlacement::centre) return {};
+  if (values.drop.centre_y == 0 || !values.has_solid() || values.drop.placement != DropPlacement::above_solid)
+    return {};
   return "drop.centre_y needs drop.placement = \"centre\" where there is a solid: otherwise drop.gap says how high "
          "above "
          "it the drop is";
@@ -425,7 +427,8 @@ double particle_count(const Case& values) {
 
 std::vector<Finding> contradictions(const Case& values, const IsUsable& is_usable) {
   std::vector<Finding> findings = run_checks(contradiction_checks(), values, is_usable);
-  for (Finding& finding : run_checks(solid_contradictions(), values, is_usable)) findings.push_back(std::move(finding));
+  for (const auto* checks : {&drop_contradictions(), &solid_contradictions()})
+    for (Finding& finding : run_checks(*checks, values, is_usable)) findings.push_back(std::move(finding));
   return findings;
 }
 

@@ -37,6 +37,7 @@ double largest_radius(const Case& values) {
   const double half_width = values.drop.diameter / 2;
   if (values.drop.shape == DropShape::ellipse)
     return half_width * std::sqrt(std::max(values.drop.aspect_ratio, 1 / values.drop.aspect_ratio));
+  if (values.drop.given) return values.drop.given->largest_radius();
   return values.drop.shape == DropShape::square ? std::numbers::sqrt2 * half_width : half_width;
 }
 
@@ -58,9 +59,8 @@ double speed_by_gravity(const Case& values) {
 double default_domain_margin(const Case& all) {
   return largest_over_drops(all, [](const Case& values) {
     double body = values.resolution.spacing;
-    if (has_drop(values))
-      body =
-          std::max(body, values.drop.shape == DropShape::ellipse ? 2 * largest_radius(values) : values.drop.diameter);
+    const bool is_long = values.drop.shape == DropShape::ellipse || values.drop.given;
+    if (has_drop(values)) body = std::max(body, is_long ? 2 * largest_radius(values) : values.drop.diameter);
     body = std::max(body, longest_solid(values));
     const double flight = 2 * expected_speed(values) * values.time.end;
     const bool is_held = has_beam(values) && !has_drop(values);
@@ -139,6 +139,7 @@ double expected_speed(const Case& all) {
     double fastest = 0;
     if (has_drop(values)) {
       fastest = speed(values.drop.velocity_x, values.drop.velocity_y) + std::abs(values.drop.oscillation_velocity);
+      if (values.drop.given) fastest += values.drop.given->largest_speed();
       if (values.drop.is_rigid()) fastest += std::abs(values.drop.initial_spin) * largest_radius(values);
       if (values.drop.is_liquid() && values.surface_tension.form != SurfaceTensionForm::none) {
         fastest = std::max(
@@ -185,10 +186,12 @@ StepBound largest_step(const Case& values) {
   return bound;
 }
 
-void fill_derived_defaults(Case& values, const std::string& source_name) {
+void fill_names(Case& values, const std::string& source_name) {
   if (values.name.empty()) values.name = std::filesystem::path(source_name).stem().string();
   if (values.output.directory.empty()) values.output.directory = "results/" + values.name;
+}
 
+void fill_derived_defaults(Case& values) {
   fill_solid(values.solid, values);
   for (Case::Solid& solid : values.more_solids) fill_solid(solid, values);
 

@@ -7,9 +7,11 @@
 
 namespace sphdrop {
 
-/// Puts a number or text where a parameter is still automatic (NaN or "").
-/// source_name: the case file's path; its name without ending becomes the run's name.
-void fill_derived_defaults(Case& values, const std::string& source_name);
+/// Fills in the run's name, that of the case file source_name without its ending, and the folder of its results.
+void fill_names(Case& values, const std::string& source_name);
+
+/// Puts a number or word where a parameter is still automatic (NaN, or a word "auto").
+void fill_derived_defaults(Case& values);
 
 /// Upper estimate of the speeds in the run, m/s: initial ones, what gravity adds until time.end (a beam by itself falls
 /// no farther than its length), and the speed at which

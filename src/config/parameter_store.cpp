@@ -212,7 +212,7 @@ struct Storing {
     if (node.kind != TomlNode::Kind::string) {
       return fmt::format("must be text in quotes, but is {}", what_it_is(node));
     }
-    if (node.text.empty()) return "must not be empty";
+    if (node.text.empty() && !text.may_be_empty) return "must not be empty";
     if (std::any_of(node.text.begin(), node.text.end(), is_control) || first_invalid_utf8(node.text)) {
       return fmt::format("= {} holds characters that a file name must not have", quoted(node.text.substr(0, 80)));
     }

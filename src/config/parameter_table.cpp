@@ -35,6 +35,11 @@ constexpr WordParameter word(std::span<const std::string_view> words, Enumeratio
 }
 
 template <auto Member>
+constexpr TextParameter drop_text(std::string_view meaning) {
+  return {[](Case& values) -> std::string& { return values.drop.*Member; }, Automatic{meaning}, true};
+}
+
+template <auto Member>
 constexpr PointsParameter points(Range range, std::string_view none = "") {
   return {[](Case& values) -> Points& { return values.solid.*Member; }, range, none};
 }
@@ -51,9 +56,9 @@ constexpr Range either_sign(double bound) {
 
 // The words of each enumeration, in the order of its enumerators (config/case.hpp).
 constexpr std::string_view mode_words[] = {"paper", "modern", "fast"};
-constexpr std::string_view shape_words[] = {"none", "round", "square", "ellipse"};
+constexpr std::string_view shape_words[] = {"none", "round", "square", "ellipse", "particles"};
 constexpr std::string_view arrangement_words[] = {"rings", "lattice"};
-constexpr std::string_view placement_words[] = {"above_solid", "centre"};
+constexpr std::string_view placement_words[] = {"above_solid", "centre", "file"};
 constexpr std::string_view material_words[] = {"liquid", "rigid"};
 constexpr std::string_view solid_words[] = {"none",       "cantilever", "fixed_fixed_beam",
                                             "rigid_wall", "polygon",    "obstacle"};
@@ -167,7 +172,12 @@ constexpr Parameter table[] = {
      "steps between shifts"},
 
     {"drop.shape", "", "-", word<&C::drop, &C::Drop::shape>(shape_words, DropShape::round),
-     "the drop's shape at the start"},
+     "the drop's shape at the start; particles = what particles_file holds, and that is the default where it is given"},
+    {"drop.particles_file", "", "-", drop_text<&C::Drop::particles_file>("none"),
+     "file with the drop's particles, beside the case file or with an absolute path: CSV with the columns x and y and, "
+     "if wanted, vx, vy and mass; HDF5 with position, velocity and mass; or a snapshot, whose drop it is"},
+    {"drop.particles_checksum", "", "-", drop_text<&C::Drop::particles_checksum>("that of particles_file"),
+     "XXH3 (128 bits) of that file's bytes; a file with another one is refused"},
     {"drop.arrangement", "", "-", word<&C::drop, &C::Drop::arrangement>(arrangement_words, DropArrangement::rings),
      "how a round drop's particles start: concentric rings, or cut out of the square lattice"},
     {"drop.material", "", "-", word<&C::drop, &C::Drop::material>(material_words, DropMaterial::liquid),
@@ -176,12 +186,13 @@ constexpr Parameter table[] = {
      real<&C::drop, &C::Drop::density>(Automatic{"fluid.density"}, positive(largest_density)),
      "a rigid drop's density"},
     {"drop.diameter", "D0", "m", real<&C::drop, &C::Drop::diameter>(1e-3, positive(largest_length)),
-     "diameter of a round drop, of the circle of the same area of an ellipse, side of a square"},
+     "diameter of a round drop, of the circle of the same area of an ellipse, side of a square; of particles without "
+     "masses the diameter of the circle whose area they share, by default spacing^2 each"},
     {"drop.aspect_ratio", "", "-", real<&C::drop, &C::Drop::aspect_ratio>(1.5, {0.1, true, 10, true}),
      "an ellipse's width over its height; its area is that of a circle of the diameter"},
     {"drop.velocity", "U0", "m/s",
      vector<&C::drop, &C::Drop::velocity_x, &C::Drop::velocity_y>({0, 0}, either_sign(largest_speed)),
-     "the drop's velocity at the start; downwards is negative y"},
+     "the drop's velocity at the start, to which that of a file's particles is added; downwards is negative y"},
     {"drop.gap", "", "m",
      real<&C::drop, &C::Drop::gap>(Automatic{"0.1 spacing beyond the contact distance"}, non_negative(largest_length)),
      "distance between the surfaces of drop and solid at the start"},
@@ -192,7 +203,9 @@ constexpr Parameter table[] = {
          either_sign(largest_length)),
      "x of the drop's centre; 0 is the left clamp's edge, or the middle of a rigid wall"},
     {"drop.placement", "", "-", word<&C::drop, &C::Drop::placement>(placement_words, DropPlacement::above_solid),
-     "above_solid = the gap above the solid's surface, centre = the centre at centre_y"},
+     "above_solid = the gap above the solid's surface, centre = the centre at centre_y, file = where particles_file "
+     "has "
+     "it, and that is the default of one unless gap, centre_x or centre_y is given"},
     {"drop.centre_y", "", "m", real<&C::drop, &C::Drop::centre_y>(0.0, either_sign(largest_length)),
      "y of the drop's centre without a solid or where placement says so; 0 is a beam's underside, or a rigid wall's "
      "surface"},

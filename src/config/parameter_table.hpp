@@ -59,6 +59,7 @@ struct WordParameter {  ///< an enumeration; its enumerators are the words' posi
 struct TextParameter {
   std::string& (*member)(Case&);
   Automatic fallback;
+  bool may_be_empty = false;  ///< then "" is the default, and nothing takes its place
 };
 
 struct PointsParameter {  ///< [[x, y], ...]; none by default

@@ -75,20 +75,20 @@ std::string value_text(const Parameter& parameter, const Case& values) {
   const auto number_or_automatic = [](double value) {
     return std::isnan(value) ? quoted(automatic_word) : number_text(value);
   };
-  return std::visit(Overloaded{[&](const RealParameter& real) { return number_or_automatic(real.member(copy)); },
-                               [&](const IntegerParameter& integer) { return fmt::format("{}", integer.member(copy)); },
-                               [&](const VectorParameter& vector) {
-                                 return fmt::format("[{}, {}]", number_text(vector.x(copy)),
-                                                    number_text(vector.y(copy)));
-                               },
-                               [&](const WordParameter& word) { return quoted(word.words[word.get(copy)]); },
-                               [&](const TextParameter& text) {
-                                 const std::string& value = text.member(copy);
-                                 return quoted(value.empty() ? automatic_word : std::string_view(value));
-                               },
-                               [&](const PointsParameter& points) { return points_text(points.member(copy)); },
-                               [&](const RegionsParameter& regions) { return regions_text(regions.member(copy)); }},
-                    parameter.value);
+  return std::visit(
+      Overloaded{[&](const RealParameter& real) { return number_or_automatic(real.member(copy)); },
+                 [&](const IntegerParameter& integer) { return fmt::format("{}", integer.member(copy)); },
+                 [&](const VectorParameter& vector) {
+                   return fmt::format("[{}, {}]", number_text(vector.x(copy)), number_text(vector.y(copy)));
+                 },
+                 [&](const WordParameter& word) { return quoted(word.words[word.get(copy)]); },
+                 [&](const TextParameter& text) {
+                   const std::string& value = text.member(copy);
+                   return quoted(value.empty() && !text.may_be_empty ? automatic_word : std::string_view(value));
+                 },
+                 [&](const PointsParameter& points) { return points_text(points.member(copy)); },
+                 [&](const RegionsParameter& regions) { return regions_text(regions.member(copy)); }},
+      parameter.value);
 }
 
 std::string type_text(const Parameter& parameter) {
@@ -105,7 +105,10 @@ std::string default_text(const Parameter& parameter) {
   const Automatic* automatic = nullptr;
   if (const auto* real = std::get_if<RealParameter>(&parameter.value))
     automatic = std::get_if<Automatic>(&real->fallback);
-  if (const auto* text = std::get_if<TextParameter>(&parameter.value)) automatic = &text->fallback;
+  if (const auto* text = std::get_if<TextParameter>(&parameter.value)) {
+    if (text->may_be_empty) return fmt::format("\"\" ({})", text->fallback.meaning);
+    automatic = &text->fallback;
+  }
   if (automatic != nullptr) return fmt::format("{} ({})", quoted(automatic_word), automatic->meaning);
   if (const auto* points = std::get_if<PointsParameter>(&parameter.value); points != nullptr && !points->none.empty())
     return fmt::format("[] ({})", points->none);

@@ -23,12 +23,14 @@ std::vector<ParameterChange> parameter_changes(const Case& before, const Case& a
       changes.push_back({key_of(parameter.key, which), std::move(old_value), std::move(new_value)});
   };
   for (const Parameter& parameter : parameter_table())
-    if (parameter.key != "output.directory") compare(parameter, {}, before, after);
+    if (parameter.key != "output.directory" && parameter.key != "drop.particles_file")
+      compare(parameter, {}, before, after);
   if (before.more_drops.size() != after.more_drops.size())
     changes.push_back({"drop", std::to_string(before.drop_count()), std::to_string(after.drop_count())});
   for (std::size_t k = 1; k < std::min(before.drop_count(), after.drop_count()); ++k)
     for (const Parameter& parameter : parameter_table())
-      if (parameter.section() == "drop") compare(parameter, {"drop", k}, before.with_drop(k), after.with_drop(k));
+      if (parameter.section() == "drop" && parameter.key != "drop.particles_file")
+        compare(parameter, {"drop", k}, before.with_drop(k), after.with_drop(k));
   if (before.more_solids.size() != after.more_solids.size())
     changes.push_back({"solid", std::to_string(before.solid_count()), std::to_string(after.solid_count())});
   for (std::size_t k = 1; k < std::min(before.solid_count(), after.solid_count()); ++k)

@@ -18,7 +18,8 @@ struct ParameterChange {
 /// computed may change, what it computes may not.
 bool may_change_on_restart(std::string_view key);
 
-/// The parameters in which two cases differ, in the table's order; the folder of the results does not count.
+/// The parameters in which two cases differ, in the table's order; where the results or a
+/// drop's file of particles lie does not count, what it holds does.
 std::vector<ParameterChange> parameter_changes(const Case& before, const Case& after);
 
 }  // namespace sphdrop

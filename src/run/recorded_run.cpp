@@ -9,6 +9,7 @@
 #include "config/command_line.hpp"
 #include "io/checkpoint.hpp"
 #include "io/output_directory.hpp"
+#include "run/particle_file.hpp"
 #include "run/results_folder.hpp"
 #include "run/say.hpp"
 
@@ -32,8 +33,9 @@ RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, In
     : communicator_(communicator),
       directory_(input.output.directory),
       end_(options.until ? std::min(*options.until, input.time.end) : input.time.end) {
+  const Case recorded = with_copies(input);
   prepare_output_directory(communicator, directory_);
-  refuse_to_overwrite_case(communicator, directory_, options.case_file, options.case_text, input);
+  refuse_to_overwrite_case(communicator, directory_, options.case_file, options.case_text, recorded);
   lock_.emplace(communicator, directory_);
   std::optional<Restart> restart;
   if (goes_on(communicator, options.restart, directory_)) {
@@ -43,16 +45,28 @@ RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, In
     if (!options.fresh) refuse_to_lose_checkpoints(communicator, directory_);
     remove_earlier_results(communicator, directory_);
   }
-  write_effective_case(communicator, directory_, input);
+  write_copies(communicator, directory_, input);
+  write_effective_case(communicator, directory_, recorded);
   record_.emplace(communicator, options.arguments);
+  for (std::size_t k = 0; k < input.drop_count(); ++k) {
+    const Case::Drop drop = input.with_drop(k).drop;
+    if (!drop.given) continue;
+    const std::string number = k == 0 ? "" : fmt::format("_{}", k + 1);
+    record_->set("particles_file" + number, drop.given->path);
+    record_->set("particles_checksum" + number, drop.given->checksum);
+  }
   if (restart) {
     record_->set("restarted_from", restart->checkpoint.path.filename().string());
     record_->set("restarted_at_step", restart->checkpoint.header.step);
   }
   record_->write(communicator, directory_);
 
+<<<<<<< HEAD
   simulation_ = std::make_unique<Simulation>(communicator, input, initial.fluid, initial.solid);
   initial = {};
+=======
+  simulation_ = std::make_unique<Simulation>(communicator, recorded, initial.fluid, initial.solid);
+>>>>>>> drops
   const Checkpoint* checkpoint = restart ? &restart->checkpoint : nullptr;
   if (checkpoint != nullptr) taking_up([&] { simulation_->restore(*checkpoint); });
   const RecorderOptions recording{directory_, end_, options.progress, version_text()};

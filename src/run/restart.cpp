@@ -26,6 +26,9 @@ auto advised(const std::string& advice, F&& f) {
 }
 
 std::string change_text(const ParameterChange& change) {
+  if (change.key.ends_with(".particles_checksum"))
+    return fmt::format("{} was {}, is now {}: the drop's file holds something else", change.key, change.before,
+                       change.after);
   return fmt::format("{} was {}, is now {}", change.key, change.before, change.after);
 }
 

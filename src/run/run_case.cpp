@@ -13,7 +13,9 @@
 #include "config/case_file.hpp"
 #include "config/effective_case.hpp"
 #include "config/parameter_store.hpp"
+#include "io/checkpoint.hpp"
 #include "run/exit_code.hpp"
+#include "run/particle_file.hpp"
 #include "run/recorded_run.hpp"
 #include "run/say.hpp"
 #include "run/shared_case.hpp"
@@ -45,12 +47,23 @@ std::optional<double> walltime_limit(const CommandLine& command, std::chrono::st
   return std::min(limit.value_or(job_limit), job_limit);
 }
 
+// Where a restart finds copies of a drop's particles that have gone: beside the checkpoint.
+CopyFolders folders_of_copies(const CommandLine& command, const std::string& results_directory) {
+  if (!command.restart) return {};
+  const std::filesystem::path directory = command.output_directory.value_or(results_directory);
+  if (*command.restart == "latest") return {directory};
+  if (*command.restart == "auto") return find_checkpoints(directory).empty() ? CopyFolders{} : CopyFolders{directory};
+  return {std::filesystem::path(*command.restart).parent_path(), directory};
+}
+
 }  // namespace
 
 int run_case(const Communicator& communicator, const CommandLine& command, const std::vector<std::string>& arguments,
              std::chrono::steady_clock::time_point start) {
   const std::string text = shared_case_text(communicator, command.case_file);
-  ParsedCase parsed = parse_case_text(text, command.case_file, command.overrides);
+  ParsedCase parsed = parse_case_text(text, command.case_file, command.overrides, [&](const ParticleRequest& request) {
+    return shared_particles(communicator, request, folders_of_copies(command, request.results_directory));
+  });
   Case& input = parsed.values;
   if (command.output_directory) input.output.directory = *command.output_directory;
   for (const std::string& warning : parsed.warnings) say(communicator, stderr, "warning: " + warning + "\n");
@@ -59,6 +72,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     return success;
   }
   InitialState initial = build_initial_state(input);
+  for (const std::string& warning : initial.warnings) say(communicator, stderr, "warning: " + warning + "\n");
   if (command.action == CommandLine::Action::check) {
     const std::string report = check_case(communicator, input, initial);
     say(communicator, stdout, report);

@@ -12,6 +12,7 @@ namespace sphdrop {
 struct DropParticles {
   std::vector<Vector> positions;
   std::vector<double> masses;
+  std::vector<Vector> velocities = {};  ///< beside that of the whole drop, m/s; empty: none
 };
 
 /// A round drop of `radius` R (m) as concentric rings, ring k at radius (k + 1/2) d', d' = R / round(R/d), with

@@ -11,6 +11,7 @@
 #include "rigid_body/rigid_body.hpp"
 #include "setup/beam.hpp"
 #include "setup/droplet.hpp"
+#include "setup/given_drop.hpp"
 #include "setup/holds.hpp"
 #include "setup/polygon_body.hpp"
 #include "setup/polygon_geometry.hpp"
@@ -85,6 +86,7 @@ DropParticles build_drop(const Case& input) {
   const double d = input.resolution.spacing;
   const double density = input.drop.is_rigid() ? input.drop.density : input.fluid.density;
   if (input.drop.shape == DropShape::none) return {};
+  if (input.drop.shape == DropShape::particles) return drop_of_file(input);
   const bool is_round = input.drop.shape == DropShape::round;
   if (is_round && input.drop.arrangement == DropArrangement::rings)
     return round_drop_of_rings(0.5 * input.drop.diameter, d, density);
@@ -123,7 +125,7 @@ double drop_centre_x(const Case& input) {
 /// comes at the same time whatever the arrangement.
 double drop_centre_y(const Case& input, const DropParticles& drop, double centre_x,
                      const std::vector<InitialSolid>& solids) {
-  if (!input.has_solid() || input.drop.placement == DropPlacement::centre) return input.drop.centre_y;
+  if (!input.has_solid() || input.drop.placement != DropPlacement::above_solid) return input.drop.centre_y;
   return height_above_solids(solids, drop.positions, centre_x, input.drop.gap, 0.5 * input.resolution.spacing);
 }
 
@@ -134,10 +136,15 @@ InitialFluid place_drop(const Case& input, const DropParticles& drop, Vector cen
   fluid.masses = drop.masses;
   fluid.centre = centre;
   const Vector mass_centre = input.drop.is_rigid() ? mass_properties(drop.positions, drop.masses).centre : Vector{};
-  for (const Vector& from_centre : drop.positions) {
+  // To the file's centre and back again they would be rounded.
+  const GivenParticles* unmoved =
+      input.drop.placement == DropPlacement::file ? input.drop.given.particles.get() : nullptr;
+  for (std::size_t k = 0; k < drop.positions.size(); ++k) {
+    const Vector from_centre = drop.positions[k];
     Vector velocity = input.drop.relaxation_time > 0.0 ? Vector{} : drop_velocity(input, from_centre);
     if (input.drop.is_rigid()) velocity = rigid_velocity(velocity, input.drop.initial_spin, from_centre - mass_centre);
-    fluid.positions.push_back(centre + from_centre);
+    if (!drop.velocities.empty()) velocity += drop.velocities[k];
+    fluid.positions.push_back(unmoved != nullptr ? Vector{unmoved->x[k], unmoved->y[k]} : centre + from_centre);
     fluid.velocities.push_back(velocity);
   }
   return fluid;
@@ -216,15 +223,19 @@ void refuse_overlap(const Case& input, const InitialState& state) {
                     {solid.x, solid.y, unused_force_x, unused_force_y}, {1.0, contact_distance, 0.0});
   if (overlap.largest_overlap <= 1e-6 * d) return;
   const bool is_above = input.drop.placement == DropPlacement::above_solid;
+  const bool is_where_file_has_it = input.drop.placement == DropPlacement::file;
   const std::string advice =
-      is_above ? fmt::format(
-                     "make drop.gap (now {:g} m) larger by at least that much, or move the drop (drop.centre_x, "
-                     "now {:g} m) off the clamps",
-                     input.drop.gap, state.drop_centre.x)
-               : fmt::format(
-                     "move the drop away by at least that much (drop.centre_x, drop.centre_y, now {:g} m and {:g} "
-                     "m), or leave out drop.placement, which puts it above the solid",
-                     state.drop_centre.x, state.drop_centre.y);
+      is_where_file_has_it
+          ? "move the drop away by at least that much in its file, or by drop.placement = \"centre\" with "
+            "drop.centre_x and drop.centre_y; drop.placement = \"above_solid\" puts it above the solid"
+      : is_above ? fmt::format(
+                       "make drop.gap (now {:g} m) larger by at least that much, or move the drop (drop.centre_x, "
+                       "now {:g} m) off the clamps",
+                       input.drop.gap, state.drop_centre.x)
+                 : fmt::format(
+                       "move the drop away by at least that much (drop.centre_x, drop.centre_y, now {:g} m and {:g} "
+                       "m), or leave out drop.placement, which puts it above the solid",
+                       state.drop_centre.x, state.drop_centre.y);
   throw SetupError(fmt::format(
       "the drop overlaps the solid at the start: the particle at x = {:.6g} m, y = {:.6g} m is nearer to "
       "the solid than the contact distance of {:g} m by {:.3g} m and would be shot away; {}",
@@ -260,6 +271,8 @@ InitialState build_initial_state(const Case& input) {
     const double centre_x = drop_centre_x(one);
     const Vector centre{centre_x, drop_centre_y(one, drop, centre_x, solids)};
     if (k == 0) state.drop_centre = centre;
+    if (one.drop.given)
+      if (std::string doubt = doubt_of_file(one); !doubt.empty()) state.warnings.push_back(std::move(doubt));
     append(place_drop(one, drop, centre), state.fluid);
     ends.push_back(state.fluid.positions.size());
   }

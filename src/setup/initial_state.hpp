@@ -1,6 +1,9 @@
 #pragma once
 // From a case to its particles. Runs alike on every process and gives the same bits on every machine.
 
+#include <string>
+#include <vector>
+
 #include "config/case.hpp"
 #include "particles/vector.hpp"
 #include "setup/initial_particles.hpp"
@@ -10,7 +13,8 @@ namespace sphdrop {
 struct InitialState {
   InitialFluid fluid;
   InitialSolid solid;
-  Vector drop_centre;  ///< m; NaN without a drop
+  Vector drop_centre;                 ///< m; NaN without a drop
+  std::vector<std::string> warnings;  ///< what will run, but perhaps not as intended
 };
 
 /// The velocity that the case gives to the drop's liquid at a place from its centre (m), m/s.

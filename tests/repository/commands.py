@@ -50,9 +50,8 @@ TESTED: dict[str, tuple[str, str]] = {
     "mpirun --host a:8,b:8 -np 16 --mca oob_tcp_keepalive_time 5 --mca oob_tcp_keepalive_intvl 2 --mca oob_tcp_keepalive_probes 2 "
     "build/release/src/sphdrop cases/cantilever/case.cfg --output results/cantilever --restart auto":
         ("cluster.hosts", "oob_tcp_keepalive_time"),
-    'cmake -G Ninja -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
     "/usr/bin/python3 tests/benchmarks/scaling/model.py page": ("benchmarks.scaling_model", "test_its_tables_are_those_of_the_model"),
-    'cmake -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
+    'cmake -G Ninja -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
         ("repository.library", "share/sphdrop/cases/probe"),
     "mpirun -np 2 build/probe/probe cases/quickstart/case.cfg results/probe": ("repository.library", "build/probe"),
 }

@@ -278,7 +278,7 @@ std::vector<BadCase> bad_values() {
        good_case,
        {"drop.shape=squar"},
        {{"--set drop.shape=squar: drop.shape = \"squar\" is not one of the words allowed", "did you mean \"square\"?",
-         "allowed: none, round, square or ellipse"}}},
+         "allowed: none, round, square, ellipse or particles"}}},
       {"override that brings in lines",
        good_case,
        {"drop.diameter=1e-3\ntime.end=1"},
