@@ -61,12 +61,8 @@ RecordedRun::RecordedRun(const Communicator& communicator, const Case& input, In
   }
   record_->write(communicator, directory_);
 
-<<<<<<< HEAD
-  simulation_ = std::make_unique<Simulation>(communicator, input, initial.fluid, initial.solid);
-  initial = {};
-=======
   simulation_ = std::make_unique<Simulation>(communicator, recorded, initial.fluid, initial.solid);
->>>>>>> drops
+  initial = {};
   const Checkpoint* checkpoint = restart ? &restart->checkpoint : nullptr;
   if (checkpoint != nullptr) taking_up([&] { simulation_->restore(*checkpoint); });
   const RecorderOptions recording{directory_, end_, options.progress, version_text()};
