@@ -175,16 +175,15 @@ void ExchangePlan::start(std::span<const void* const> source_columns) {
   transfer_.requests.clear();
   if (columns == 0) return;
   transfer_.send_buffer.resize(row_count_to_send_ * columns);
-  transfer_.receive_buffer.resize(row_count_to_receive_ * columns);
+  transfer_.receive_buffer.resize((row_count_to_receive_ - row_count_with(receives_, own_rank_)) * columns);
 
   std::uint64_t* arriving = transfer_.receive_buffer.data();
   for (const RankRows& peer : receives_) {
+    if (peer.rank == own_rank_) continue;
     const std::size_t words = peer.rows.size() * columns;
-    if (peer.rank != own_rank_) {
-      communicator_->note(TrafficKind::message_received, words * word_bytes);
-      MPI_Irecv(arriving, message_length(words), MPI_UINT64_T, peer.rank, tag_, communicator_->handle(),
-                &transfer_.requests.emplace_back());
-    }
+    communicator_->note(TrafficKind::message_received, words * word_bytes);
+    MPI_Irecv(arriving, message_length(words), MPI_UINT64_T, peer.rank, tag_, communicator_->handle(),
+              &transfer_.requests.emplace_back());
     arriving += words;
   }
   // Own rows are packed like all others: the target columns may be the source columns.
@@ -214,8 +213,10 @@ void ExchangePlan::finish(std::span<void* const> target_columns) {
   }
   const std::uint64_t* arrived = transfer_.receive_buffer.data();
   for (const RankRows& peer : receives_) {
-    unpack(peer.rank == own_rank_ ? own : arrived, peer.rows, target_columns);
-    arrived += peer.rows.size() * transfer_.columns;
+    if (peer.rank == own_rank_)
+      unpack(own, peer.rows, target_columns);
+    else
+      arrived = unpack(arrived, peer.rows, target_columns);
   }
 }
 

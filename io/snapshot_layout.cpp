@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstring>
 #include <numeric>
 #include <set>
@@ -45,15 +46,28 @@ std::string check_columns(const SnapshotRows& rows, std::span<const SnapshotColu
   return {};
 }
 
-/// Turns columns given by component into one of rows; missing components are zero.
-std::vector<std::byte> interleave(std::span<const std::vector<double>> components, std::size_t width) {
-  const std::size_t n = components[0].size();
-  std::vector<double> rows(n * width, 0.0);
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    for (std::size_t row = 0; row < n; ++row) rows[row * width + c] = components[c][row];
+/// Columns sorted by id one at a time, as an exchange of all at once would need all their memory twice more.
+class SortedRows {
+ public:
+  explicit SortedRows(RowsById& by_id) : by_id_(by_id), values_(static_cast<std::size_t>(by_id.block().size())) {}
+
+  /// Collective. Rows of `width` numbers; missing components are zero. Integers travel as the 8 bytes of a double:
+  /// nothing looks at them as a number on the way.
+  std::vector<std::byte> of(std::span<const void* const> components, std::size_t width) {
+    constexpr std::size_t number = sizeof(double);
+    std::vector<std::byte> rows(values_.size() * width * number);  // zeros
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      by_id_.redistribute(components.subspan(c, 1), std::array<void*, 1>{values_.data()});
+      for (std::size_t row = 0; row < values_.size(); ++row)
+        std::memcpy(rows.data() + (row * width + c) * number, &values_[row], number);
+    }
+    return rows;
   }
-  return to_bytes<double>(rows);
-}
+
+ private:
+  RowsById& by_id_;
+  std::vector<double> values_;
+};
 
 /// A dataset of a single value, which rank 0 writes.
 template <class T>
@@ -102,19 +116,7 @@ std::vector<DatasetRows> lay_out_snapshot(const Communicator& communicator, cons
   throw_if_any_failed<CollectiveError>(communicator, check_columns(rows, columns));
   RowsById by_id(communicator, 0, rows.total, rows.ids);
   const RowBlock& block = by_id.block();
-  const auto n = static_cast<std::size_t>(block.size());
-
-  std::vector<const void*> sources = {rows.x.data(), rows.y.data()};
-  for (const SnapshotColumn& column : columns) {
-    for (const auto& component : column.components) sources.push_back(component.data());
-    if (column.components.empty()) sources.push_back(column.integers.data());
-  }
-  // Integers travel as the 8 bytes of a double: nothing looks at them as a number on the way.
-  std::vector<std::vector<double>> sorted(sources.size(), std::vector<double>(n));
-  std::vector<void*> targets;
-  targets.reserve(sorted.size());
-  for (auto& column : sorted) targets.push_back(column.data());
-  by_id.redistribute(sources, targets);
+  SortedRows sorted(by_id);
 
   std::vector<DatasetRows> datasets;
   append_cells(communicator, rows.total, block, datasets);
@@ -123,23 +125,23 @@ std::vector<DatasetRows> lay_out_snapshot(const Communicator& communicator, cons
     datasets.push_back({std::move(path), std::move(unit), std::move(description), type, rows.total, components,
                         block.first, std::move(bytes)});
   };
-  append("/VTKHDF/Points", "m", "position", Hdf5Type::float64, 3, interleave(std::span(sorted).first(2), 3));
-  std::vector<std::int64_t> ids(n);
+  append("/VTKHDF/Points", "m", "position", Hdf5Type::float64, 3,
+         sorted.of(std::array<const void*, 2>{rows.x.data(), rows.y.data()}, 3));
+  std::vector<std::int64_t> ids(static_cast<std::size_t>(block.size()));
   std::iota(ids.begin(), ids.end(), block.first);
   append("/VTKHDF/PointData/id", "1", "global id of the particle", Hdf5Type::int64, 1, to_bytes<std::int64_t>(ids));
-  std::size_t next = 2;
   for (const SnapshotColumn& column : columns) {
     const std::string path = "/VTKHDF/PointData/" + column.name;
     if (column.components.empty()) {
-      append(path, column.unit, column.description, Hdf5Type::int64, 1, to_bytes<double>(sorted[next]));
-      ++next;
+      append(path, column.unit, column.description, Hdf5Type::int64, 1,
+             sorted.of(std::array<const void*, 1>{column.integers.data()}, 1));
       continue;
     }
-    const int width = column.components.size() == 1 ? 1 : 3;
-    const auto components = std::span(sorted).subspan(next, column.components.size());
+    std::vector<const void*> components;
+    for (const auto& component : column.components) components.push_back(component.data());
+    const int width = components.size() == 1 ? 1 : 3;
     append(path, column.unit, column.description, Hdf5Type::float64, width,
-           interleave(components, static_cast<std::size_t>(width)));
-    next += column.components.size();
+           sorted.of(components, static_cast<std::size_t>(width)));
   }
   append_field_data(communicator, header, datasets);
   return datasets;
