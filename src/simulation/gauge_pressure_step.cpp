@@ -11,6 +11,7 @@ GaugePressureStep::GaugePressureStep(const Communicator& communicator, const Cas
                                      std::span<const double> masses)
     : is_enabled_(input.drop.is_liquid() && input.fluid.gauge_pressure == Switch::on),
       relaxation_time_(input.fluid.gauge_relaxation_time),
+      lowest_(0.0 - input.fluid.ambient_pressure),
       rest_density_(input.fluid.density),
       inverse_squared_sound_speed_(1.0 / (input.fluid.sound_speed * input.fluid.sound_speed)),
       pressure_scale_(input.fluid.density * input.fluid.sound_speed * input.fluid.sound_speed),
@@ -41,7 +42,7 @@ void GaugePressureStep::start(const FluidParticles& fluid, double area) {
 void GaugePressureStep::finish() {
   if (!pending_.is_under_way()) return;
   const std::span<const std::int64_t> words = pending_.finish();
-  gauge_.target = PressureSums(pressure_scale_).target(words, particle_count_);
+  gauge_.target = PressureSums(pressure_scale_).target(words, particle_count_, lowest_);
   area_ = std::bit_cast<double>(words[3]);
 }
 

@@ -45,7 +45,7 @@ class GaugePressureStep {
 
  private:
   bool is_enabled_;
-  double relaxation_time_, rest_density_, inverse_squared_sound_speed_;
+  double relaxation_time_, lowest_, rest_density_, inverse_squared_sound_speed_;
   double rest_area_ = 0, area_ = 0, adjustment_ = 0;
   GaugePressure gauge_;
   double pressure_scale_, particle_count_;

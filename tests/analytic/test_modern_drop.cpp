@@ -102,6 +102,37 @@ kind = "rigid_wall"
   EXPECT_GT(run.last().drop_width, 2e-3);
 }
 
+// The film that draws back is under tension; without the air's pressure it tears inside and the drop swells.
+TEST(ModernDrop, StaysWholeUnderTheAirsPressure) {
+  double largest_area[2] = {0, 0};
+  for (const int is_pressed : {0, 1}) {
+    const WatchedRun run = watch(fmt::format(R"(
+mode = "modern"
+[resolution]
+spacing = 0.05e-3
+[time]
+end = 3e-3
+[fluid]
+ambient_pressure = {}
+[drop]
+velocity = [0.0, -1.0]
+[solid]
+kind = "rigid_wall"
+)",
+                                             150.0 * is_pressed),
+                                 2e-5);
+    double lowest_gauge = 0;
+    for (const Observation& row : run.rows) {
+      largest_area[is_pressed] = std::max(largest_area[is_pressed], row.curve_area / run.first().curve_area);
+      lowest_gauge = std::min(lowest_gauge, row.gauge_pressure);
+    }
+    EXPECT_GE(lowest_gauge, -150.0 * is_pressed);
+    EXPECT_LT(largest(run, &Observation::unaccounted), 0.01 * run.first().kinetic_fluid);
+  }
+  EXPECT_GT(largest_area[0], 1.08);
+  EXPECT_LT(largest_area[1], 1.02);
+}
+
 // Every cause but the steps' length has its column: with steps half as long a quarter is left.
 TEST(ModernDrop, LeavesUnaccountedWhatTheStepsLengthMakes) {
   const auto unaccounted_with = [](double sound_cfl) {
