@@ -20,6 +20,7 @@ COLOURS = {
     "surface": LINES[4], "contact": LINES[7], "gravity": "#8c6d46", "dissipated_fluid": LINES[1], "dissipated_solid": "#e58a7b",
     "adhesion": "#c39bd3", "dissipated_contact": "#b5651d", "density_correction": "#4b5fd1", "artificial_stress_work": "#7a8f2f",
     "reconnection": LINES[5], "gauge": "#5a9e9b", "gauge_adjustment": "#9a6fb0", "shifting_work": "#b5b04a",
+    "sharing_work": "#6b8e8e",
 }
 
 

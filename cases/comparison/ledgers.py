@@ -25,7 +25,8 @@ STORED = {"kinetic_fluid": "kinetic, drop", "kinetic_solid": "kinetic, solid", "
 DISSIPATED = {"dissipated_fluid": "dissipated, drop", "dissipated_solid": "dissipated, solid",
               "dissipated_contact": "dissipated, contact"}
 INJECTED = {"density_correction": "density correction", "artificial_stress_work": "artificial stress",
-            "reconnection": "curves detected anew", "gauge_adjustment": "gauge adjustment", "shifting_work": "shifting"}
+            "reconnection": "curves detected anew", "gauge_adjustment": "gauge adjustment", "shifting_work": "shifting",
+            "sharing_work": "sharing of tension"}
 
 
 @dataclass(frozen=True)

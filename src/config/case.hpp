@@ -68,6 +68,7 @@ struct Case {
     double density_diffusion = 0;                  ///< delta
     Switch gauge_pressure = Switch::off;
     double gauge_relaxation_time = 0;  ///< s
+    double ambient_pressure = 0;       ///< Pa: how far below zero the gauge may fall
     Switch shifting = Switch::off;
     std::int64_t shifting_interval = 0;  ///< steps
     bool operator==(const Fluid&) const = default;

@@ -115,6 +115,12 @@ Verdict gauge_without_surface(const Case& values) {
   return no_surface_for(values, values.fluid.gauge_pressure, "fluid.gauge_pressure");
 }
 
+Verdict ambient_pressure_without_gauge(const Case& values) {
+  if (values.fluid.ambient_pressure == 0 || values.fluid.gauge_pressure == Switch::on) return {};
+  return "fluid.ambient_pressure needs fluid.gauge_pressure = \"on\", which brings it to the liquid's surface: set it "
+         "to 0, or switch the gauge on";
+}
+
 Verdict shifting_without_surface(const Case& values) {
   return no_surface_for(values, values.fluid.shifting, "fluid.shifting");
 }
@@ -328,6 +334,7 @@ const std::vector<Check>& contradiction_checks() {
       {{"drop.initial_spin", "drop.material"}, spin_of_a_liquid},
       {{"drop.density", "drop.material", "fluid.density"}, density_of_a_liquid},
       {{"fluid.gauge_pressure", "surface_tension.form", "surface_tension.coefficient"}, gauge_without_surface},
+      {{"fluid.ambient_pressure", "fluid.gauge_pressure"}, ambient_pressure_without_gauge},
       {{"fluid.shifting", "surface_tension.form", "surface_tension.coefficient"}, shifting_without_surface},
       {{"drop.relaxation_time", "drop.shape", "drop.material"}, relaxation_of_another_drop},
       {{"drop.relaxation_time", "solid.initial_tip_velocity"}, relaxation_beside_a_swinging_beam},

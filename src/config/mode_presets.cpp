@@ -5,7 +5,7 @@
 namespace sphdrop {
 namespace {
 
-// On a beam the paper's liquid loses less of the energy to what is not accounted for, and is as near to the exact beam.
+// On a beam shifting would add energy, and the paper's liquid is as near to the exact beam.
 bool has_liquid_without_beam(const Case& values) {
   return values.drop.is_liquid() && !has_beam(values);
 }

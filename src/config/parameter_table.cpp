@@ -77,11 +77,12 @@ constexpr std::string_view switch_words[] = {"off", "on"};
 constexpr std::int64_t stencil_choices[] = {3, 5};
 
 // Upper limits that no physics sets: they catch slips of units and keep products of parameters finite.
-constexpr double largest_length = 100;   // m
-constexpr double largest_time = 1e4;     // s
-constexpr double largest_speed = 1e5;    // m/s
-constexpr double largest_density = 1e6;  // kg/m3
-constexpr double largest_spin = 1e9;     // rad/s
+constexpr double largest_length = 100;            // m
+constexpr double largest_time = 1e4;              // s
+constexpr double largest_speed = 1e5;             // m/s
+constexpr double largest_density = 1e6;           // kg/m3
+constexpr double largest_spin = 1e9;              // rad/s
+constexpr double largest_ambient_pressure = 1e6;  // Pa
 constexpr std::int64_t most_steps = 1000000000;
 constexpr std::int64_t most_substeps = 20;
 
@@ -165,6 +166,10 @@ constexpr Parameter table[] = {
     {"fluid.gauge_relaxation_time", "", "s",
      real<&C::fluid, &C::Fluid::gauge_relaxation_time>(20e-6, positive(largest_time)),
      "time in which that reference follows the drop's pressure"},
+    {"fluid.ambient_pressure", "", "Pa",
+     real<&C::fluid, &C::Fluid::ambient_pressure>(0.0, non_negative(largest_ambient_pressure)),
+     "how far below zero that reference may fall: the air's pressure, which keeps liquid under tension from tearing; a "
+     "small one does, such as the pressure of the drop at rest, 2 sigma/diameter; 0 = none"},
     {"fluid.shifting", "", "-", word<&C::fluid, &C::Fluid::shifting>(switch_words, Switch::off),
      "on = particles are shifted a little from crowded to empty places, along the surface near it, so that they do not "
      "clump"},

@@ -30,14 +30,14 @@ class PressureSums {
   using Words = std::array<std::int64_t, 3>;
   const Words& words() const { return words_; }
 
-  /// The pressure that particles need to be under so that all but a few stay above zero: mean p - 3 std p, and never
-  /// negative, Pa. `words` of `count` pressures.
-  double target(std::span<const std::int64_t> words, double count) const {
+  /// The pressure that particles need to be under so that all but a few stay above it: mean p - 3 std p, and never
+  /// below `lowest`, Pa. `words` of `count` pressures.
+  double target(std::span<const std::int64_t> words, double count, double lowest = 0) const {
     if (!(count > 0)) return 0;
     const double mean = static_cast<double>(words[0]) / count;
     const double mean_square = (static_cast<double>(words[2]) * 0x1p32 + static_cast<double>(words[1])) / count;
     const double variance = std::max(0.0, mean_square - mean * mean);
-    return std::max(0.0, unit_ * (mean - 3.0 * std::sqrt(variance)));
+    return std::max(lowest, unit_ * (mean - 3.0 * std::sqrt(variance)));
   }
 
  private:
@@ -46,7 +46,9 @@ class PressureSums {
 };
 
 /// A drop's gauge pressure p_ref. With it, the equation of state gives the pressure above p_ref, p_ref itself acts on
-/// the drop's surface alone, and the particles' lattice, which is stiff under pressure, does not feel it.
+/// the drop's surface alone, and the particles' lattice, which is stiff under pressure, does not feel it. Below zero it
+/// is the air's pressure with the sign turned: the surface is pressed in, and particles feel pressure where the liquid
+/// is under tension, under which they would clump and leave voids.
 struct GaugePressure {
   double pressure = 0;  ///< p_ref, Pa
   double target = 0;    ///< of the last instant, Pa

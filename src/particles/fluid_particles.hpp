@@ -18,6 +18,8 @@ class FluidParticles : public ParticleSet {
                                 "compressive energy added by the density's correction or diffusion so far"};
   ScalarField shift_energy{*this, "shift_energy", "J/m", Role::state,
                            "energy of compression and gravity added by shifts so far"};
+  ScalarField gauge_energy{*this, "gauge_energy", "J/m", Role::state,
+                           "energy of compression added by changes of the gauge pressure so far"};
   VectorField detection_position{*this, "detection_position", "m", Role::state,
                                  "position when the surface was last detected"};
   VectorField body_offset{*this, "body_offset", "m", Role::state,

@@ -11,6 +11,8 @@ GaugePressureStep::GaugePressureStep(const Communicator& communicator, const Cas
                                      std::span<const double> masses)
     : is_enabled_(input.drop.is_liquid() && input.fluid.gauge_pressure == Switch::on),
       relaxation_time_(input.fluid.gauge_relaxation_time),
+      lowest_(0.0 - input.fluid.ambient_pressure),
+      rest_density_(input.fluid.density),
       inverse_squared_sound_speed_(1.0 / (input.fluid.sound_speed * input.fluid.sound_speed)),
       pressure_scale_(input.fluid.density * input.fluid.sound_speed * input.fluid.sound_speed),
       particle_count_(static_cast<double>(masses.size())),
@@ -21,7 +23,11 @@ GaugePressureStep::GaugePressureStep(const Communicator& communicator, const Cas
 void GaugePressureStep::relax(FluidParticles& fluid, double step) {
   const double change = gauge_.relax(step, relaxation_time_);
   const double density_change = change * inverse_squared_sound_speed_;
-  fluid.for_each_owned([&](std::size_t row) { fluid.staggered_density[row] -= density_change; });
+  fluid.for_each_owned([&](std::size_t row) {
+    const double middle = fluid.staggered_density[row] - 0.5 * density_change;
+    fluid.staggered_density[row] -= density_change;
+    fluid.gauge_energy[row] -= fluid.mass[row] * change * (middle - rest_density_) / (middle * middle);
+  });
   adjustment_ -= change * (area_ - rest_area_);
 }
 
@@ -36,7 +42,7 @@ void GaugePressureStep::start(const FluidParticles& fluid, double area) {
 void GaugePressureStep::finish() {
   if (!pending_.is_under_way()) return;
   const std::span<const std::int64_t> words = pending_.finish();
-  gauge_.target = PressureSums(pressure_scale_).target(words, particle_count_);
+  gauge_.target = PressureSums(pressure_scale_).target(words, particle_count_, lowest_);
   area_ = std::bit_cast<double>(words[3]);
 }
 

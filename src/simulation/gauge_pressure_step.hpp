@@ -25,7 +25,8 @@ class GaugePressureStep {
   /// The energy of its push on the surface, -p_ref (A - V0), J/m: A the `area` within the curves (m2), V0 the drop's at
   /// rest density.
   double energy(double area) const { return -gauge_.pressure * (area - rest_area_); }
-  /// What changes of p_ref have added to that energy so far, J/m.
+  /// What changes of p_ref have added to that energy so far, J/m. What they take off the energy of compression is in
+  /// the particles' gauge_energy.
   double adjustment() const { return adjustment_; }
   /// Counts adjustment() anew.
   void start_ledger() { adjustment_ = 0; }
@@ -44,7 +45,7 @@ class GaugePressureStep {
 
  private:
   bool is_enabled_;
-  double relaxation_time_, inverse_squared_sound_speed_;
+  double relaxation_time_, lowest_, rest_density_, inverse_squared_sound_speed_;
   double rest_area_ = 0, area_ = 0, adjustment_ = 0;
   GaugePressure gauge_;
   double pressure_scale_, particle_count_;

@@ -64,9 +64,11 @@ void Simulation::correct_density() {
   // The staggered density is shifted by the same increment, so that the filter is not undone by the next step.
   const double reference = case_.fluid.density, sound_speed = case_.fluid.sound_speed;
   fluid_.for_each_owned([&](std::size_t row) {
-    const double before = fluid_.density[row], after = corrected_density_[row];
-    fluid_.staggered_density[row] += after - before;
-    fluid_.density[row] = after;
+    const double before = fluid_.staggered_density[row], change = corrected_density_[row] - fluid_.density[row];
+    const double after = before + change;
+    fluid_.staggered_density[row] = after;
+    fluid_.density[row] = corrected_density_[row];
+    // At the half step: from there on the corrected pressures act.
     fluid_.correction_energy[row] += fluid_.mass[row] * (compressive_energy_per_mass(after, reference, sound_speed) -
                                                          compressive_energy_per_mass(before, reference, sound_speed));
   });
@@ -92,7 +94,7 @@ void Simulation::account_for_density_diffusion() {
   fluid_.for_each_owned([&](std::size_t row) {
     const double rho = fluid_.density[row], pressure = fluid_.pressure[row] - gauge_.pressure();
     fluid_.correction_energy[row] +=
-        fluid_.mass[row] * (pressure / (rho * rho) * fluid_.density_diffusion[row]) * steps_.next;
+        fluid_.mass[row] * (pressure / (rho * rho) * fluid_.density_diffusion[row]) * steps_.kick();
   });
 }
 
@@ -116,6 +118,7 @@ void Simulation::start_drop() {
   fluid_.for_each_owned([&](std::size_t row) {
     fluid_.staggered_velocity.set(row, drop_velocity(case_, fluid_.position.at(row) - drop_centre_));
     fluid_.dissipated_energy[row] = fluid_.correction_energy[row] = fluid_.shift_energy[row] = 0.0;
+    fluid_.gauge_energy[row] = 0.0;
   });
   surface_tension_.start_ledger();
   gauge_.start_ledger();

@@ -32,6 +32,7 @@ enum Sum : std::size_t {
   fluid_heat,
   fluid_correction,
   fluid_shift,
+  fluid_gauge,
   solid_mass_x,
   solid_mass_y,
   solid_momentum_x,
@@ -69,6 +70,7 @@ void add_fluid(const Simulation& simulation, Sums& sums) {
     sums[fluid_heat].add(f.dissipated_energy[row]);
     sums[fluid_correction].add(f.correction_energy[row]);
     sums[fluid_shift].add(f.shift_energy[row]);
+    sums[fluid_gauge].add(f.gauge_energy[row]);
   });
 }
 
@@ -176,6 +178,7 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     o.surface = simulation.input().surface_tension.coefficient * o.curve_length;
     o.reconnection = simulation.input().surface_tension.coefficient * tension.reconnected_length() +
                      tension.reconnected_gauge_energy();
+    o.sharing_work = tension.sharing_work();
     if (tension.work_of_adhesion() > 0) {
       o.base_width = numbers[5];
       o.adhesion = -tension.work_of_adhesion() * o.base_width;
@@ -185,7 +188,7 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
     if (gauge.is_enabled()) {
       o.gauge_pressure = gauge.pressure();
       o.gauge = gauge.energy(numbers[6]);
-      o.gauge_adjustment = gauge.adjustment();
+      o.gauge_adjustment = gauge.adjustment() + sum[fluid_gauge];
     }
   }
 }
@@ -262,7 +265,8 @@ Observation observe(const Simulation& simulation, double initial_total) {
 
   Observation o{};
   for (const ObservedQuantity& quantity : observed_quantities()) o.*quantity.value = nan;
-  o.surface = o.adhesion = o.contact = o.reconnection = o.gauge = o.gauge_adjustment = o.largest_density_error = 0.0;
+  o.surface = o.adhesion = o.contact = o.reconnection = o.gauge = o.gauge_adjustment = o.sharing_work =
+      o.largest_density_error = 0.0;
   o.time = simulation.time();
   o.step = static_cast<double>(simulation.step());
   o.time_step = simulation.time_step();
@@ -285,7 +289,8 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.adhesion + o.contact +
             o.gravity + o.gauge;
   o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid + o.dissipated_contact - o.density_correction -
-                  o.artificial_stress_work - o.reconnection - o.gauge_adjustment - o.shifting_work - initial_total;
+                  o.artificial_stress_work - o.reconnection - o.gauge_adjustment - o.shifting_work - o.sharing_work -
+                  initial_total;
   o.momentum_fluid_x = sum[fluid_momentum_x];
   o.momentum_fluid_y = sum[fluid_momentum_y];
   o.momentum_solid_x = sum[solid_momentum_x];

@@ -33,7 +33,7 @@ struct Observation {
   double gauge;
   double dissipated_fluid, dissipated_solid, dissipated_contact, density_correction, artificial_stress_work,
       reconnection;
-  double gauge_adjustment, shifting_work;
+  double gauge_adjustment, shifting_work, sharing_work;
   double total, unaccounted;
   double momentum_fluid_x, momentum_fluid_y, momentum_solid_x, momentum_solid_y;
   double angular_momentum_fluid, angular_momentum_solid;

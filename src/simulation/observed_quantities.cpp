@@ -61,15 +61,18 @@ std::span<const ObservedQuantity> observed_quantities() {
       {"artificial_stress_work", "J/m", "work of the artificial stress so far", &O::artificial_stress_work},
       {"reconnection", "J/m", "energy of surface and gauge that came with detecting the surface's curves anew, so far",
        &O::reconnection},
-      {"gauge_adjustment", "J/m", "energy of the gauge that came with changes of the gauge pressure, so far",
-       &O::gauge_adjustment},
+      {"gauge_adjustment", "J/m",
+       "energy of gauge and compression that came with changes of the gauge pressure, so far", &O::gauge_adjustment},
       {"shifting_work", "J/m",
        "energy of surface, adhesion, gauge, compression and gravity that shifts have added so far", &O::shifting_work},
+      {"sharing_work", "J/m",
+       "work of the forces of surface, adhesion and gauge on the particles that they are shared out over, less that on "
+       "the surface's points, so far",
+       &O::sharing_work},
       {"total", "J/m", "kinetic, elastic, compressive, surface, adhesion, contact, gravity and gauge", &O::total},
       {"unaccounted", "J/m",
        "total + dissipated - density correction - artificial stress - reconnection - gauge adjustment - shifting - "
-       "total "
-       "at the start",
+       "sharing - total at the start",
        &O::unaccounted},
       {"momentum_fluid_x", "kg/s", "momentum of the liquid", &O::momentum_fluid_x},
       {"momentum_fluid_y", "kg/s", "momentum of the liquid", &O::momentum_fluid_y},

@@ -310,6 +310,7 @@ RunSummary Recorder::summary() const {
       term("dissipated, drop", &Observation::dissipated_fluid);
       term("density correction", &Observation::density_correction, -1.0);
       term("curve reconnection", &Observation::reconnection, -1.0);
+      term("sharing of tension", &Observation::sharing_work, -1.0);
       if (c.fluid.gauge_pressure == Switch::on) {
         term("gauge pressure", &Observation::gauge);
         term("gauge adjustment", &Observation::gauge_adjustment, -1.0);

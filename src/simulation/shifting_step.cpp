@@ -39,16 +39,18 @@ void ShiftingStep::find(const FluidParticles& fluid, const Distribution& distrib
   is_found_ = true;
 }
 
-void ShiftingStep::apply(FluidParticles& fluid, Vector gravity) {
+void ShiftingStep::apply(FluidParticles& fluid, Vector gravity, double kick) {
   if (!is_found_) return;
   is_found_ = false;
   fluid.for_each_owned([&](std::size_t row) {
     fluid.position.x[row] += x_[row];
     fluid.position.y[row] += y_[row];
-    const double density = fluid.density[row];
     fluid.staggered_density[row] += returned_[row];
-    const double compression = compressive_energy_per_mass(density + returned_[row], rest_density_, sound_speed_) -
-                               compressive_energy_per_mass(density, rest_density_, sound_speed_);
+    // The pressures of this instant, which do not know it yet, act through the whole kick; what is returned is there at
+    // its end.
+    const double density = fluid.staggered_density[row] + kick * fluid.density_rate[row];
+    const double compression = compressive_energy_per_mass(density, rest_density_, sound_speed_) -
+                               compressive_energy_per_mass(density - returned_[row], rest_density_, sound_speed_);
     fluid.shift_energy[row] += fluid.mass[row] * (compression - dot(gravity, {x_[row], y_[row]}));
   });
 }

@@ -29,8 +29,9 @@ class ShiftingStep {
   std::span<const double> displacement_x() const { return x_; }
   std::span<const double> displacement_y() const { return y_; }
   /// Moves the owned rows, once; velocities stay as they are, densities but for what returns the volume. What that adds
-  /// to the energy of compression and gravity (m/s2) goes to shift_energy.
-  void apply(FluidParticles& fluid, Vector gravity);
+  /// to the energy of compression and gravity (m/s2) goes to shift_energy. `kick`: from the half step before to the one
+  /// to come, s.
+  void apply(FluidParticles& fluid, Vector gravity, double kick);
 
   /// What shifts have added to the energy of surface, adhesion and gauge so far, J/m.
   double work() const { return work_; }

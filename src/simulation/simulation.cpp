@@ -29,6 +29,7 @@ enum Maximum : std::size_t {
   failure,
   requested,
   energy_of_shift,
+  energy_of_sharing,
   displacements,                                // of the liquid: a box
   detection_displacements = displacements + 4,  // likewise
   maxima_count = detection_displacements + 4
@@ -147,6 +148,7 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
       drop_centre_(initial_fluid.centre),
       time_(0.0 - input.drop.relaxation_time),
       energy_of_shift_(-infinity),
+      energy_of_sharing_(-infinity),
       timer_(communicator) {
   fluid_ghosted_ = fluid_.columns_with(Role::ghosted);
   if (has_density_diffusion()) {
@@ -266,7 +268,8 @@ SavedSimulation Simulation::save() const {
       StoredParticles("solid", solid_, solid_total_),
       {clock_numbers({time_, step_, steps_.previous}),
        {"surface", "-",
-        "surface tension: whether the curves were detected, length and base that came with detections (m)",
+        "surface tension: whether the curves were detected, length and base that came with detections (m), likewise "
+        "energy of the gauge (J/m), energy that came with sharing the forces (J/m)",
         surface_tension_.to_numbers()},
        {"contact", "-", "record of the contact, its heat and the load of the last step", contact_.to_numbers()},
        {"rigid_body", "-",
@@ -275,8 +278,9 @@ SavedSimulation Simulation::save() const {
         "(rad/s2); velocity x, y (m/s), spin (rad/s)",
         rigid_body_.to_numbers()},
        {"gauge_pressure", "-",
-        "the drop's gauge pressure and what it tends to (Pa), area within the curves (m2), energy by its changes "
-        "(J/m)",
+        "the drop's gauge pressure and what it tends to (Pa), area within the curves (m2), energy of the surface by "
+        "its "
+        "changes (J/m)",
         gauge_.to_numbers()},
        {"shifting", "J/m", "energy that shifts have added", shifting_.to_numbers()}}};
 }
@@ -290,6 +294,7 @@ void Simulation::settle() {
   settled_ = maxima_.finish();
   gauge_.finish();
   if (settled_[energy_of_shift] > -infinity) shifting_.add_work(settled_[energy_of_shift]);
+  if (settled_[energy_of_sharing] > -infinity) surface_tension_.add_sharing_work(settled_[energy_of_sharing]);
   timer_.lap(Phase::communication);
   request_ = settled_[requested];
   check_safety(settled_[failure]);
@@ -331,7 +336,11 @@ void Simulation::evaluate() {
   contact_.receive();
   if (surface_tension_.is_enabled()) surface_tension_.receive();
   timer_.lap(Phase::communication);
-  if (surface_tension_.is_enabled()) surface_tension_.work(contact_, gauge_.pressure());
+  if (surface_tension_.is_enabled()) {
+    surface_tension_.work(contact_, gauge_.pressure());
+    if (surface_tension_.owner() == communicator_.rank())
+      energy_of_sharing_ = surface_tension_.sharing_power() * steps_.kick();
+  }
   if (gauge_.is_enabled()) gauge_.start(fluid_, surface_tension_.enclosed_area());
   timer_.lap(Phase::surface_tension);
   contact_.work(time_, steps_.next, steps_.kick(), surface_tension_.adhesion());
@@ -366,7 +375,7 @@ void Simulation::damp_solids() {
 void Simulation::move(double request) {
   const double limit = case_.safety.speed_limit;
   const bool was_relaxing = is_relaxing();
-  shifting_.apply(fluid_, is_relaxing() ? Vector{} : Vector{case_.gravity.x, case_.gravity.y});
+  shifting_.apply(fluid_, is_relaxing() ? Vector{} : Vector{case_.gravity.x, case_.gravity.y}, steps_.kick());
   MotionMaxima fluid = rigid_body_.is_enabled() ? rigid_body_.move(fluid_, steps_, limit)
                                                 : kick_and_drift(fluid_, steps_, limit, boxes_wanted());
   supports_.stop(solid_);
@@ -400,7 +409,9 @@ void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& soli
   mine[requested] = request;
   put_box(std::span(mine).subspan(displacements, 4), fluid.displacements);
   put_box(std::span(mine).subspan(detection_displacements, 4), fluid.detection_displacements);
-  mine[energy_of_shift] = std::exchange(energy_of_shift_, -infinity);  // a number on one rank
+  // A number on one rank.
+  mine[energy_of_shift] = std::exchange(energy_of_shift_, -infinity);
+  mine[energy_of_sharing] = std::exchange(energy_of_sharing_, -infinity);
   maxima_.start(mine);
 }
 

@@ -180,7 +180,8 @@ class Simulation {
   std::span<const double> settled_;  // what move() left under way, once it is known; empty before
   double request_ = 0;
   double squared_drop_speed_ = 0;
-  double energy_of_shift_;  // at the surface's owner, J/m; minus infinity elsewhere and where nothing is shifted
+  // At the surface's owner, J/m; minus infinity elsewhere and where nothing is shifted or there is no surface.
+  double energy_of_shift_, energy_of_sharing_;
   std::optional<SolidStep::Inversion> inversion_;         // the first on this rank
   std::optional<DisplacementBox> contact_displacements_;  // of the liquid, if contact was gathered anew since the lists
   bool wants_displacements_ = false;                      // the drop may move as a whole

@@ -70,7 +70,7 @@ void SurfaceTensionStep::recover(FluidParticles& fluid, Distribution& distributi
 }
 
 std::vector<double> SurfaceTensionStep::to_numbers() const {
-  return {has_curves_ ? 1.0 : 0.0, reconnected_length_, reconnected_base_, reconnected_gauge_energy_};
+  return {has_curves_ ? 1.0 : 0.0, reconnected_length_, reconnected_base_, reconnected_gauge_energy_, sharing_work_};
 }
 
 void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
@@ -79,12 +79,13 @@ void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
   reconnected_length_ = reader.number();
   reconnected_base_ = reader.number();
   reconnected_gauge_energy_ = reader.number();
+  sharing_work_ = reader.number();
   reader.expect_end();
 }
 
 // The present surface points at the owner, on the curves of the last detection.
 void SurfaceTensionStep::gather_points(const FluidParticles& fluid) {
-  start(fluid);
+  gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
   gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
   update_points();
 }
@@ -242,6 +243,8 @@ void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& cont
   const std::size_t gathered = gather_.ids().size();
   x_.resize(gathered);
   y_.resize(gathered);
+  velocity_x_.resize(gathered);
+  velocity_y_.resize(gathered);
   mass_.resize(gathered);
   acceleration_x_.resize(gathered);
   acceleration_y_.resize(gathered);
@@ -251,14 +254,18 @@ void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& cont
   curves_ = {};
   node_particle_.clear();
   node_positions_.clear();
+  node_velocities_.clear();
   points_.clear();
+  point_velocities_.clear();
   forces_.clear();
   if (owner != communicator_.rank()) return;
 
   curves_ = connect_arcs(arcs_, arc_centres_, support_);
   node_particle_.resize(curves_.nodes.size());
   node_positions_.resize(curves_.nodes.size());
+  node_velocities_.resize(curves_.nodes.size());
   points_.resize(curves_.nodes.size());
+  point_velocities_.resize(curves_.nodes.size());
   forces_.resize(curves_.nodes.size());
   for (std::size_t k = 0; k < curves_.nodes.size(); ++k) {
     const std::int32_t index = gather_.index_of(curves_.nodes[k].particle);
@@ -275,11 +282,12 @@ void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& cont
 }
 
 void SurfaceTensionStep::start(const FluidParticles& fluid) {
-  gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
+  gather_.start_gather(std::array<const void*, 4>{fluid.position.x.data(), fluid.position.y.data(),
+                                                  fluid.velocity.x.data(), fluid.velocity.y.data()});
 }
 
 void SurfaceTensionStep::receive() {
-  gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
+  gather_.finish_gather(std::array<void*, 4>{x_.data(), y_.data(), velocity_x_.data(), velocity_y_.data()});
 }
 
 void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
@@ -297,10 +305,27 @@ void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
       adhesion_summary_ = adhesion_.apply(curves_, points_, contact.boundary().segments, contact.boundary_forces(),
                                           adhesion_parameters_, all_forces_);
     }
-    lost_points_ = sharing_.share(points_, is_wetting_ ? all_forces_ : forces_, x_, y_, mass_, kernel_, acceleration_x_,
-                                  acceleration_y_);
+    const std::vector<Vector>& shared = is_wetting_ ? all_forces_ : forces_;
+    lost_points_ = sharing_.share(points_, shared, x_, y_, mass_, kernel_, acceleration_x_, acceleration_y_);
+    sharing_power_ = power_of_sharing(shared);
   }
   gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
+}
+
+double SurfaceTensionStep::power_of_sharing(std::span<const Vector> forces) {
+  double on_particles = 0, on_points = 0;
+  for (const std::int32_t k : sharing_.particles()) {
+    const auto index = static_cast<std::size_t>(k);
+    on_particles +=
+        mass_[index] * (acceleration_x_[index] * velocity_x_[index] + acceleration_y_[index] * velocity_y_[index]);
+  }
+  for (std::size_t k = 0; k < node_particle_.size(); ++k) {
+    const auto index = static_cast<std::size_t>(node_particle_[k]);
+    node_velocities_[k] = {velocity_x_[index], velocity_y_[index]};
+  }
+  surface_velocities(curves_, node_positions_, node_velocities_, spacing_, point_velocities_);
+  for (std::size_t k = 0; k < forces.size(); ++k) on_points += dot(forces[k], point_velocities_[k]);
+  return on_particles - on_points;
 }
 
 void SurfaceTensionStep::finish(FluidParticles& fluid) {

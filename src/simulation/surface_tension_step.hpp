@@ -59,7 +59,7 @@ class SurfaceTensionStep {
   /// Collective. After the first redistribution of a restored run: the curves of the last detection, if there was one.
   void recover(FluidParticles& fluid, Distribution& distribution, const ContactStep& contact);
 
-  /// Sends the band's positions to the owner.
+  /// Sends the band's positions and velocities to the owner.
   void start(const FluidParticles& fluid);
   /// Waits for them.
   void receive();
@@ -75,6 +75,14 @@ class SurfaceTensionStep {
   double energy_of_displacement(std::span<const double> x, std::span<const double> y, double gauge_pressure,
                                 const ContactStep& contact);
 
+  /// At the owner, of the instant last worked on, W/m: power of the forces on the particles less that of the same
+  /// forces on the surface's points, of which they are the gradient. The points go with their particles, the forces are
+  /// shared out over all within 2h: where these move otherwise, energy comes or goes.
+  double sharing_power() const { return sharing_power_; }
+  /// What that has added to the energy so far, J/m; the same on every rank.
+  double sharing_work() const { return sharing_work_; }
+  void add_sharing_work(double energy) { sharing_work_ += energy; }
+
   int owner() const { return gather_.owner(); }
   /// Who sends the owner what.
   const InterfaceGather& gather() const { return gather_; }
@@ -85,8 +93,8 @@ class SurfaceTensionStep {
   double reconnected_base() const { return reconnected_base_; }
   /// Likewise -gauge pressure times the area within the curves, J/m.
   double reconnected_gauge_energy() const { return reconnected_gauge_energy_; }
-  /// Counts them anew.
-  void start_ledger() { reconnected_length_ = reconnected_base_ = reconnected_gauge_energy_ = 0; }
+  /// Counts them and sharing_work() anew.
+  void start_ledger() { reconnected_length_ = reconnected_base_ = reconnected_gauge_energy_ = sharing_work_ = 0; }
   /// W, N/m: energy per width of the base; 0 where the solid does not attract the liquid.
   double work_of_adhesion() const { return adhesion_parameters_.work; }
   /// At the owner: what adhesion does to the solid.
@@ -104,6 +112,7 @@ class SurfaceTensionStep {
  private:
   void find_arcs(FluidParticles& fluid, Distribution& distribution);
   void update_points();
+  double power_of_sharing(std::span<const Vector> forces);
   void find_arc_normals();
   void orient_along_surface(FluidParticles& fluid) const;
   void gather_points(const FluidParticles& fluid);
@@ -126,6 +135,7 @@ class SurfaceTensionStep {
 
   bool has_curves_ = false;
   double reconnected_length_ = 0, reconnected_base_ = 0, reconnected_gauge_energy_ = 0;
+  double sharing_power_ = 0, sharing_work_ = 0;
 
   // This rank's part of the band, and what comes back for it.
   InterfaceGather gather_;
@@ -136,8 +146,8 @@ class SurfaceTensionStep {
   SurfaceCurves curves_;
   ForceSharing sharing_;
   std::vector<std::int32_t> node_particle_;
-  std::vector<double> x_, y_, mass_, acceleration_x_, acceleration_y_;
-  std::vector<Vector> node_positions_, points_, forces_;
+  std::vector<double> x_, y_, velocity_x_, velocity_y_, mass_, acceleration_x_, acceleration_y_;
+  std::vector<Vector> node_positions_, node_velocities_, points_, point_velocities_, forces_;
   std::vector<double> displacement_x_, displacement_y_;
   std::vector<Vector> displaced_positions_, displaced_points_;
   std::size_t lost_points_ = 0;

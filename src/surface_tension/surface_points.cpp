@@ -25,4 +25,27 @@ void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_po
   }
 }
 
+void surface_velocities(const SurfaceCurves& curves, std::span<const Vector> node_positions,
+                        std::span<const Vector> node_velocities, double spacing, std::span<Vector> velocities) {
+  assert(node_positions.size() == curves.nodes.size() && node_velocities.size() == curves.nodes.size());
+  assert(velocities.size() == curves.nodes.size());
+  const double offset = 0.5 * spacing;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const SurfaceCurves::Range curve = curves.curve(c);
+    std::size_t previous = curve.last - 1;
+    for (std::size_t k = curve.first; k < curve.last; ++k) {
+      const std::size_t next = curve.next(k);
+      const Vector chord = node_positions[next] - node_positions[previous];
+      const double squared_chord = squared_length(chord);
+      velocities[k] = node_velocities[k];
+      // The normal turns as the chord does: d/2 dn/dt = d/2 (chord x chord's rate)/chord^2 along the chord.
+      if (squared_chord > 0.0) {
+        const double turning = cross(chord, node_velocities[next] - node_velocities[previous]) / squared_chord;
+        velocities[k] += (offset * turning / std::sqrt(squared_chord)) * chord;
+      }
+      previous = k;
+    }
+  }
+}
+
 }  // namespace sphdrop

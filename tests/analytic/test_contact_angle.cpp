@@ -107,7 +107,7 @@ TEST(SessileDrop, TakesTheContactAngle) {
     EXPECT_NEAR(last.adhesion / (-0.072 * (1.0 + std::cos(in_radians)) * last.base_width), 1.0, 1e-12);
     EXPECT_NEAR(last.drop_centre_x, 0.0, 0.1 * spacing) << angle;
     for (const Observation& row : run.rows)
-      EXPECT_LT(std::abs(row.unaccounted), 0.04 * run.first().surface) << angle << " at " << row.time;
+      EXPECT_LT(std::abs(row.unaccounted), 0.001 * run.first().surface) << angle << " at " << row.time;
     EXPECT_TRUE(run.contact.gaps().empty());  // it never leaves
     EXPECT_NEAR(*run.contact.last_contact(), last.time, 1e-6);
   }

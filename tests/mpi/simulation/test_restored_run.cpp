@@ -103,6 +103,7 @@ TEST_F(RestoredRun, EndsInTheSameBits) {
   ASSERT_GT(expected.observation.gauge_pressure, 0.0);
   ASSERT_NE(expected.observation.shifting_work, 0.0);
   ASSERT_NE(expected.observation.gauge_adjustment, 0.0);
+  ASSERT_NE(expected.observation.sharing_work, 0.0);
 
   for (const std::int64_t stop : {std::int64_t{20}, start, std::int64_t{222}, std::int64_t{301}}) {
     SCOPED_TRACE(stop);

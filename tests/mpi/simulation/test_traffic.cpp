@@ -170,7 +170,7 @@ Traffic step_formula(const Simulation& simulation, const Columns& columns) {
   };
   if (simulation.fluid_total() > 0) {
     add_exchange(traffic, simulation.distribution().fluid_halo(), rank, columns.liquid);
-    add_interface(simulation.surface_tension().gather(), 2);
+    add_interface(simulation.surface_tension().gather(), 4);
     add_interface(simulation.contact().fluid_gather(), columns.contact);
     add_interface(simulation.contact().solid_gather(), columns.contact);
   }

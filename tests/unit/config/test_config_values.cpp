@@ -55,6 +55,7 @@ TEST(Defaults, AreThePapersScheme) {
   EXPECT_EQ(c.fluid.density_diffusion, 0.1);
   EXPECT_EQ(c.fluid.gauge_pressure, Switch::off);
   EXPECT_EQ(c.fluid.gauge_relaxation_time, 20e-6);
+  EXPECT_EQ(c.fluid.ambient_pressure, 0);
   EXPECT_EQ(c.fluid.shifting, Switch::off);
   EXPECT_EQ(c.fluid.shifting_interval, 4);
   EXPECT_EQ(c.drop.relaxation_time, 0);

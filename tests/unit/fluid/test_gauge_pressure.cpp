@@ -13,10 +13,10 @@ namespace {
 constexpr double scale = 2.5e6;  // Pa
 constexpr double unit = scale * 0x1p-31;
 
-double target_of(const std::vector<double>& pressures) {
+double target_of(const std::vector<double>& pressures, double lowest = 0.0) {
   PressureSums sums(scale);
   for (const double p : pressures) sums.add(p);
-  return sums.target(sums.words(), static_cast<double>(pressures.size()));
+  return sums.target(sums.words(), static_cast<double>(pressures.size()), lowest);
 }
 
 TEST(PressureSums, TargetIsTheMeanLessThreeStandardDeviations) {
@@ -29,6 +29,13 @@ TEST(PressureSums, TargetIsNeverNegativeAndZeroForNothing) {
   EXPECT_EQ(target_of({10, 30}), 0.0);
   EXPECT_EQ(target_of({-100, -100}), 0.0);
   EXPECT_EQ(target_of({}), 0.0);
+}
+
+TEST(PressureSums, TargetFallsBelowZeroAsFarAsAllowed) {
+  EXPECT_NEAR(target_of({10, 30}, -100.0), -10.0, 4 * unit);
+  EXPECT_NEAR(target_of({-40, -20}, -100.0), -60.0, 4 * unit);
+  EXPECT_EQ(target_of({-300, -100}, -100.0), -100.0);
+  EXPECT_NEAR(target_of({90, 110, 110, 90}, -100.0), 70.0, 4 * unit);
 }
 
 TEST(PressureSums, AddUpOverPartsToTheSameBits) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "drops.hpp"
 
 namespace sphdrop {
@@ -66,6 +68,36 @@ TEST(SurfacePoints, OfPairsAndIsolatedParticlesAreFinite) {
   EXPECT_NEAR(length(points[0]), 0.5 * spacing, 1e-12 * spacing);
   EXPECT_NEAR(points[1].x, 19.5 * spacing, 1e-12 * spacing);
   EXPECT_NEAR(points[2].x, 21.5 * spacing, 1e-12 * spacing);
+}
+
+// Against the difference of the points a little later and a little earlier, on a drop, a chain and a pair.
+TEST(SurfaceVelocities, AreTheRatesOfThePoints) {
+  Positions pair_and_drop = ring_disc(6);
+  pair_and_drop.push_back({30.0 * spacing, 0.0});
+  pair_and_drop.push_back({31.0 * spacing, 0.3 * spacing});
+  for (const Positions& positions : {pair_and_drop, rectangle(5, 1), rectangle(5, 3)}) {
+    const SurfaceCurves curves = curves_of(positions);
+    const Positions nodes = node_positions(curves, positions);
+    Positions rates(nodes.size()), earlier(nodes.size()), later(nodes.size()), found(nodes.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      // One velocity a particle, whatever its nodes; neither a translation nor a rotation.
+      const auto id = static_cast<double>(curves.nodes[k].particle);
+      rates[k] = {std::sin(3.0 * id) + 0.2, std::cos(5.0 * id) - 0.4};
+    }
+    surface_velocities(curves, nodes, rates, spacing, found);
+    const double step = 1e-5 * spacing;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      earlier[k] = nodes[k] - step * rates[k];
+      later[k] = nodes[k] + step * rates[k];
+    }
+    Positions before(nodes.size()), after(nodes.size());
+    surface_points(curves, earlier, spacing, before);
+    surface_points(curves, later, spacing, after);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      EXPECT_NEAR(found[k].x, (after[k].x - before[k].x) / (2.0 * step), 1e-6) << k;
+      EXPECT_NEAR(found[k].y, (after[k].y - before[k].y) / (2.0 * step), 1e-6) << k;
+    }
+  }
 }
 
 }  // namespace
