@@ -83,8 +83,9 @@ class TextTable {
     for (const std::string_view cell : cells) {
       const std::size_t bracket = cell.find('[');
       const std::string_view name = trimmed(cell.substr(0, bracket));
-      if (bracket != std::string_view::npos && !cell.ends_with(']'))
-        refuse(fmt::format("{} is no name of a column; write name or name [unit]", shown(cell)));
+      if (bracket != std::string_view::npos && cell.find(']') != cell.size() - 1)
+        refuse(
+            fmt::format("{} is no name of a column; write name or name [unit], with a comma between two", shown(cell)));
       if (std::find(known_.begin(), known_.end(), name) == known_.end())
         refuse(fmt::format("there is no column {}; there are {}, with a comma between two", shown(name),
                            fmt::join(known_, ", ")));
@@ -97,8 +98,8 @@ class TextTable {
 
   void take_row(const std::vector<std::string_view>& cells) {
     if (cells.size() != table_.columns.size())
-      refuse(fmt::format("holds {} value{}, and there are {} columns", cells.size(), cells.size() == 1 ? "" : "s",
-                         table_.columns.size()));
+      refuse(fmt::format("holds {} value{}, and the first line names {} column{}", cells.size(),
+                         cells.size() == 1 ? "" : "s", table_.columns.size(), table_.columns.size() == 1 ? "" : "s"));
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const double value = number_of(cells[k]);
       if (std::isnan(value))

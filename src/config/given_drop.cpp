@@ -10,14 +10,32 @@
 namespace sphdrop {
 namespace {
 
+double density_of(const Case& one) {
+  const bool is_rigid = one.drop.material == DropMaterial::rigid && !std::isnan(one.drop.density);
+  return is_rigid ? one.drop.density : one.fluid.density;
+}
+
 // Of the circle of the particles' area, m.
 double equivalent_diameter(const Case& one) {
   const GivenParticles& given = *one.drop.given.particles;
   const double d = one.resolution.spacing;
-  const bool is_rigid = one.drop.material == DropMaterial::rigid && !std::isnan(one.drop.density);
-  const double density = is_rigid ? one.drop.density : one.fluid.density;
-  const double area = given.mass.empty() ? static_cast<double>(given.size()) * d * d : given.total_mass() / density;
+  const double area =
+      given.mass.empty() ? static_cast<double>(given.size()) * d * d : given.total_mass() / density_of(one);
   return std::sqrt(4 * area / std::numbers::pi);
+}
+
+// The liquid would be pressed together or torn at once.
+std::string mass_mistake(const Case& one) {
+  constexpr double tolerance = 0.1;
+  const GivenParticles& given = *one.drop.given.particles;
+  const double d = one.resolution.spacing, expected = density_of(one) * d * d;
+  const double mean = given.total_mass() / static_cast<double>(given.size());
+  if (given.mass.empty() || std::isnan(expected) || std::abs(mean - expected) <= tolerance * expected) return "";
+  return fmt::format(
+      "drop.particles_file: the masses of {} are {:.4g} kg/m in the mean, and particles {:g} m apart of {:g} kg/m3 "
+      "have "
+      "{:.4g} kg/m; leave the masses out and they get that",
+      given.file, mean, d, density_of(one), expected);
 }
 
 std::string take_place(Case& one, const IsGiven& is_given) {
@@ -34,11 +52,12 @@ std::string take_place(Case& one, const IsGiven& is_given) {
   const char* wrong = differs("drop.centre_x", drop.centre_x, centre.x)   ? "drop.centre_x"
                       : differs("drop.centre_y", drop.centre_y, centre.y) ? "drop.centre_y"
                                                                           : nullptr;
+  const auto shown = [&](double own) { return std::abs(own) < tolerance ? 0.0 : own; };
   if (wrong != nullptr)
     return fmt::format(
         "{} moves the drop, and drop.placement = \"file\" leaves it where {} has it, at x = {:.6g} m, y = {:.6g} m; "
         "leave one of them out",
-        wrong, drop.given->file, centre.x, centre.y);
+        wrong, drop.given->file, shown(centre.x), shown(centre.y));
   drop.centre_x = centre.x;
   drop.centre_y = centre.y;
   return "";
@@ -68,7 +87,8 @@ std::string take_given_particles(Case& one, const IsGiven& is_given, std::shared
     const double diameter = equivalent_diameter(one);
     if (diameter > 0) drop.diameter = diameter;  // not so where the spacing itself is wrong
   }
-  return take_place(one, is_given);
+  std::string mistake = mass_mistake(one);
+  return mistake.empty() ? take_place(one, is_given) : mistake;
 }
 
 }  // namespace sphdrop

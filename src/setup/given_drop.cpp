@@ -55,7 +55,7 @@ void refuse_twins(const GivenParticles& given, const NearestNeighbours& neighbou
 }
 
 void refuse_other_masses(const GivenParticles& given, double density, double spacing) {
-  constexpr double least = 0.5, most = 2, tolerance = 0.1;
+  constexpr double least = 0.5, most = 2;
   const double expected = density * spacing * spacing;
   for (std::size_t k = 0; k < given.mass.size(); ++k)
     if (given.mass[k] < least * expected || given.mass[k] > most * expected)
@@ -64,13 +64,6 @@ void refuse_other_masses(const GivenParticles& given, double density, double spa
                       "kg/m; leave the "
                       "masses out and they get that",
                       given.place_of(k), given.mass[k], spacing, density, expected));
-  if (given.mass.empty()) return;
-  const double mean = given.total_mass() / static_cast<double>(given.size());
-  if (std::abs(mean - expected) > tolerance * expected)
-    throw SetupError(fmt::format(
-        "the masses of {} are {:.4g} kg/m in the mean, and particles {:g} m apart of {:g} kg/m3 have {:.4g} "
-        "kg/m; leave the masses out and they get that",
-        given.file, mean, spacing, density, expected));
 }
 
 /// Which piece each particle belongs to, by its first particle: those within `reach` of each other are of one.

@@ -51,11 +51,9 @@ void gather_state(const Communicator& communicator, const Set& set, std::vector<
 }
 
 /// Collective over `communicator`.
-inline WholeState run_steps(const Communicator& communicator, const std::string& case_text, int steps,
-                            const std::vector<std::string>& overrides = {}) {
-  const ParsedCase parsed = parse_case_text(case_text, "test.cfg", overrides);
-  const InitialState initial = build_initial_state(parsed.values);
-  Simulation simulation(communicator, parsed.values, initial.fluid, initial.solid);
+inline WholeState run_steps(const Communicator& communicator, const Case& input, int steps) {
+  const InitialState initial = build_initial_state(input);
+  Simulation simulation(communicator, input, initial.fluid, initial.solid);
   WholeState state;
   for (int k = 0;; ++k) {
     simulation.evaluate();
@@ -73,6 +71,12 @@ inline WholeState run_steps(const Communicator& communicator, const std::string&
   state.redistributions = simulation.redistributions();
   state.detections = simulation.detections();
   return state;
+}
+
+/// Collective likewise.
+inline WholeState run_steps(const Communicator& communicator, const std::string& case_text, int steps,
+                            const std::vector<std::string>& overrides = {}) {
+  return run_steps(communicator, parse_case_text(case_text, "test.cfg", overrides).values, steps);
 }
 
 }  // namespace sphdrop::test

@@ -28,7 +28,7 @@ class Wrong:
     words: tuple[str, ...] = ()  # behind the case's name
     line: tuple[str, ...] | None = None  # the whole command line instead
     prepare: str = ""  # what Prepared does to the folder before
-
+    drop: tuple[str, str] | None = None  # in the good file of particles: this, by that
 
 
 def edited(what: str, old: str, new: str) -> Wrong:
@@ -37,6 +37,24 @@ def edited(what: str, old: str, new: str) -> Wrong:
 
 def with_set(what: str, *values: str) -> Wrong:
     return Wrong(what, words=tuple(word for value in values for word in ("--set", value)))
+
+
+def good_drop() -> str:
+    """The same drop as a file of particles: lines 2 to 73."""
+    places = [((i - 4.5) * 0.0625, (j - 4.5) * 0.0625) for i in range(10) for j in range(10)]
+    return "x [mm],y [mm]\n" + "".join(f"{x},{y}\n" for x, y in places if x * x + y * y < 0.3**2)
+
+
+GOOD_DROP = good_drop()
+OF_FILE = GOOD.replace("diameter = 0.6e-3", 'particles_file = "drop.csv"')
+
+
+def in_drop(what: str, old: str, new: str) -> Wrong:
+    return Wrong(what, text=OF_FILE, drop=(old, new))
+
+
+def beside_drop(what: str, *values: str) -> Wrong:
+    return Wrong(what, text=OF_FILE, words=with_set("", *values).words, drop=("", ""))
 
 
 CASE_FILE = (
@@ -131,7 +149,39 @@ SET_UP = (
     with_set("springs too soft for the impact", "contact.stiffness_form=fixed", "contact.stiffness=1e-5", "drop.velocity=[0, -4]"),
 )
 
+PARTICLES = (
+    Wrong("a file of particles that is not there", text=OF_FILE),
+    beside_drop("a folder for one", "drop.particles_file=."),
+    beside_drop("the case itself for one", "drop.particles_file=impact.cfg"),
+    in_drop("nothing in it", GOOD_DROP, ""),
+    in_drop("no particles in it", GOOD_DROP, "x,y\n"),
+    in_drop("no names of columns", "x [mm],y [mm]\n", ""),
+    in_drop("semicolons", "x [mm],y [mm]", "x [mm];y [mm]"),
+    in_drop("a column that is none", "x [mm],y [mm]", "x [mm],z [mm]"),
+    in_drop("a column too few", "x [mm],y [mm]", "x [mm]"),
+    in_drop("milliseconds for a length", "x [mm],y [mm]", "x [ms],y [mm]"),
+    in_drop("no unit, and millimetres", "x [mm],y [mm]", "x,y"),
+    in_drop("one component of the velocity", GOOD_DROP, "x,y,vx\n0,0,1\n"),
+    in_drop("a value too many", "-0.15625,-0.21875\n", "-0.15625,-0.21875,0\n"),
+    in_drop("a word for a number", "-0.15625,-0.21875\n", "-0.15625,low\n"),
+    in_drop("not a number", "-0.15625,-0.21875\n", "nan,-0.21875\n"),
+    in_drop("a number left out", "-0.15625,-0.21875\n", ",-0.21875\n"),
+    in_drop("metres for millimetres", "-0.15625,-0.21875\n", "-156250000,-0.21875\n"),
+    in_drop("a particle twice", "-0.15625,-0.21875\n", "-0.15625,-0.21875\n-0.15625,-0.21875\n"),
+    in_drop("a mass of nothing", GOOD_DROP, "x,y,mass\n0,0,0\n"),
+    in_drop("masses of another depth", GOOD_DROP,
+            "x,y,mass\n" + "".join(f"{i * 0.0625e-3},{j * 0.0625e-3},1e-9\n" for i in range(9) for j in range(9))),
+    beside_drop("another spacing", "resolution.spacing=31.25 um"),
+    beside_drop("a diameter that is another's", "drop.diameter=0.9 mm"),
+    beside_drop("another shape", "drop.shape=round"),
+    beside_drop("a place and the file's place", "drop.placement=file", "drop.centre_x=1 mm"),
+    beside_drop("in the beam", "drop.placement=file", "drop.gap=auto"),
+    beside_drop("the checksum of another file", "drop.particles_checksum=0123"),
+    with_set("particles without a file", "drop.shape=particles"),
+)
+
 DOUBTS = (
+    in_drop("particles in two pieces", "-0.15625,-0.21875\n", "-0.15625,-0.21875\n2,2\n"),
     with_set("an odd number of rows", "resolution.spacing=0.05 mm"),
     with_set("two rows", "resolution.spacing=0.125 mm", "solid.clamp_length=0.5 mm"),
     with_set("an artificial stress that is unstable", "solid.artificial_stress_coefficient=0.5"),
@@ -144,5 +194,5 @@ DOUBTS = (
 
 SECTIONS = (
     ("In the case file", CASE_FILE), ("On the command line", COMMAND_LINE), ("With files", FILES), ("At a restart", RESTART),
-    ("When the case is set up or runs", SET_UP), ("Warnings: the run goes on", DOUBTS),
+    ("When the case is set up or runs", SET_UP), ("In a file of particles", PARTICLES), ("Warnings: the run goes on", DOUBTS),
 )

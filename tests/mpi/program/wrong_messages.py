@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from wrong_inputs import GOOD, SECTIONS, Wrong
+from wrong_inputs import GOOD, GOOD_DROP, SECTIONS, Wrong
 
 PAGE = Path(__file__).resolve().parent / "README.md"
 BEGIN, END = "<!-- messages: written by wrong_messages.py -->", "<!-- end of messages -->"
@@ -51,6 +51,10 @@ class Folder:
                 raise AssertionError(f"the good case has no {wrong.edit[0]!r}")
             text = text.replace(wrong.edit[0], wrong.edit[1], 1)
         (here / CASE).write_text(text, encoding="utf-8")
+        if wrong.drop is not None:
+            if wrong.drop[0] not in GOOD_DROP:
+                raise AssertionError(f"the good drop has no {wrong.drop[0]!r}")
+            (here / "drop.csv").write_text(GOOD_DROP.replace(*wrong.drop, 1), encoding="utf-8")
         lock = None
         if wrong.prepare == "folder":
             (here / "folder").mkdir()
@@ -87,6 +91,9 @@ class Folder:
 
 
 def shown_input(wrong: Wrong) -> str:
+    if wrong.drop is not None and wrong.drop[1] and not wrong.words:
+        lines = wrong.drop[1].splitlines()
+        return ", ".join(f"`{line}`" for line in lines[:3]) + (", ..." if len(lines) > 3 else "")
     if wrong.edit is not None:
         return f"`{wrong.edit[1].removeprefix(wrong.edit[0]).strip()}`".replace("\n", "`, `")
     if wrong.line is not None or wrong.words:

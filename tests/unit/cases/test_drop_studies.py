@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib.util
 import math
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,7 +16,7 @@ from comparison.study import CASES, Results, Study  # noqa: E402
 
 import numpy as np  # noqa: E402
 
-STUDIES = ("square_droplet", "oscillating_droplet", "rigid_wall", "artificial_stress")
+STUDIES = ("square_droplet", "oscillating_droplet", "rigid_wall", "artificial_stress", "lobed_droplet")
 
 
 def module(name: str) -> Any:
@@ -37,6 +39,51 @@ class Expectations(unittest.TestCase):
         for name in STUDIES:
             self.assertEqual(module(name).measure(Results({}, "paper")), {})
             self.assertEqual(module(name).draw(Results({}, "paper"), Path("/nonexistent")), [])
+
+
+class MadeUpSnapshot(dict[str, Any]):
+    """Of liquid alone."""
+
+    @property
+    def fluid(self) -> Any:
+        return np.ones(len(self["mass"]), dtype=bool)
+
+
+class LobedDrop(unittest.TestCase):
+    drop = module("lobed_droplet")
+    case_text = ("[drop]\ndiameter = 1e-3\n[fluid]\ndensity = 1000.0\nviscosity = 0.001\n"
+                 "[surface_tension]\ncoefficient = 0.072\n")
+
+    def test_theory(self) -> None:
+        run = SimpleNamespace(case_text=self.case_text)
+        for mode, period, decay in ((2, 3.3798e-3, 62.5e-3), (3, 1.6899e-3, 20.83e-3), (4, 1.0688e-3, 10.42e-3)):
+            self.assertAlmostEqual(self.drop.ideal_period(run, mode), period, delta=1e-7)
+            self.assertAlmostEqual(self.drop.ideal_decay_time(run, mode), decay, delta=1e-5)
+
+    def test_the_files_are_what_the_script_writes_and_have_their_mode(self) -> None:
+        folder = CASES / "lobed_droplet"
+        found = importlib.util.spec_from_file_location("make_drops", folder / "make_drops.py")
+        script = importlib.util.module_from_spec(found)
+        found.loader.exec_module(script)
+        with tempfile.TemporaryDirectory() as name:
+            script.write(Path(name))
+            for mode in script.MODES:
+                own = np.loadtxt(folder / f"mode_{mode}.csv", delimiter=",", skiprows=2)
+                new = np.loadtxt(Path(name) / f"mode_{mode}.csv", delimiter=",", skiprows=2)
+                np.testing.assert_allclose(own, new, rtol=0, atol=2e-6)
+                particles = {"position": own[:, :2] * 1e-3 + [1e-3, -2e-3], "mass": own[:, 2] * 1e-6}
+                whole = MadeUpSnapshot(particles)
+                for n in (2, 3, 4):
+                    # Of a square of the amplitude there is a little in other modes.
+                    self.assertAlmostEqual(self.drop.amplitude(whole, n, 0.5e-3), 0.05 if n == mode else 0.0,
+                                           delta=5e-4 if n == mode else 6e-3)
+                self.assertAlmostEqual(particles["mass"].sum() / (1000 * math.pi * 0.25e-6), 1.0, delta=1e-5)
+
+    def test_measures_a_made_up_swing_that_is_not_about_zero(self) -> None:
+        times = np.linspace(0, 3.6e-3, 91)
+        values = 0.05 * np.exp(-50 * times) * np.cos(2 * math.pi * times / 1.7e-3) + 0.002
+        self.assertAlmostEqual(self.drop.period(times, values), 1.7e-3, delta=2e-6)
+        self.assertAlmostEqual(self.drop.decay_time(times, values), 1 / 50, delta=4e-4)
 
 
 class OscillatingDrop(unittest.TestCase):
