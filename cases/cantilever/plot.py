@@ -16,7 +16,7 @@ from comparison.beam_figures import (  # noqa: E402
     MILLI, PAPER, Gallery, change_bars, convergence_panels, history_lines, modal_checks, strip)
 from comparison.beam_frequency import first_mode  # noqa: E402
 from comparison.beam_quantities import (  # noqa: E402
-    contact_time, deepest_deflection, deviation_from_proportion, impulse_time, largest_gap_of_run, leaving_time, lowest_point,
+    contact_time, deepest_deflection, deviation_from_line, deviation_from_proportion, impulse_time, largest_gap_of_run, leaving_time, lowest_point,
     rows_across, spacing_of, theory_of)
 from comparison.convergence import Fit, fit_order  # noqa: E402
 from comparison.standalone import standalone_main  # noqa: E402
@@ -95,6 +95,7 @@ def measure(results: Results) -> dict[str, float]:
         if len(runs) >= 3:
             depths = [deepest_deflection(run)[1] for run in runs.values()]
             found[f"deviation_from_proportion_L{length}"] = deviation_from_proportion(list(runs), depths)
+            found[f"deviation_from_line_L{length}"] = deviation_from_line(list(runs), depths)
             found[f"period_scatter_L{length}"] = float(np.max(np.abs(np.array(periods) / np.mean(periods) - 1)))
     for name in ("rows4", "rows6", "rows8", "rows16"):
         if name in results:

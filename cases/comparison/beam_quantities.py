@@ -107,6 +107,13 @@ def deviation_from_proportion(x: Sequence[float], y: Sequence[float]) -> float:
     return float(np.max(np.abs(b / line - 1)))
 
 
+def deviation_from_line(x: Sequence[float], y: Sequence[float]) -> float:
+    """Largest |y - (c + s x)| / |c + s x| from the straight line of least squares, wherever it begins; a share."""
+    a, b = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    slope, begin = np.polyfit(a, b, 1)
+    return float(np.max(np.abs(b / (begin + slope * a) - 1)))
+
+
 @dataclass(frozen=True)
 class BeamTheory:
     """Eqs 43-47 for a run: rad/s, s, m and 1. Eqs 46 and 47 are a cantilever's under a drop; NaN elsewhere."""

@@ -99,6 +99,11 @@ class Deflection(unittest.TestCase):
 
 
 class Contact(unittest.TestCase):
+    def test_deviation_from_line(self) -> None:
+        self.assertAlmostEqual(beam_quantities.deviation_from_line([1, 2, 4], [5, 8, 14]), 0.0)
+        # The line through (0, 1), (1, 1), (2, 1) with its middle raised by 0.3 is 1.1.
+        self.assertAlmostEqual(beam_quantities.deviation_from_line([0, 1, 2], [1, 1.3, 1]), 0.2 / 1.1)
+
     def setUp(self) -> None:
         """10 N/m evenly from 0.1 to 1.1 ms, chattering; again from 2 to 2.2 ms."""
         times = np.arange(301) * 1e-5
