@@ -15,6 +15,7 @@
 #include "particles/solid_particles.hpp"
 #include "setup/initial_particles.hpp"
 #include "simulation/contact_step.hpp"
+#include "simulation/derived_parameters.hpp"
 #include "simulation/distribution.hpp"
 #include "simulation/gauge_pressure_step.hpp"
 #include "simulation/phase_timer.hpp"
@@ -35,19 +36,6 @@ namespace sphdrop {
 /// at the same step with the same text, which names the particle.
 struct SafetyError : std::runtime_error {
   using std::runtime_error::runtime_error;
-};
-
-/// Constants of the formulas that follow from a case.
-struct DerivedParameters {
-  explicit DerivedParameters(const Case& input);
-
-  double smoothing_length;  ///< h, m
-  SmoothingKernel kernel;   ///< of the liquid
-  InteractionRange range;
-  AnyFluidPairParameters fluid_pair;
-  HypoelasticParameters solid;
-  TimeStepLimits time_step;
-  std::vector<double> damping_rate;  ///< [solids] in proportion to mass, 1/s
 };
 
 /// A run, step by step: evaluate() brings everything to the present instant, move() goes on to the next. All calls are
