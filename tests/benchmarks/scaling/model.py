@@ -30,8 +30,8 @@ BAND = 3.3  # rows of liquid that surface points act on, along the curve: 2h + 0
 PERIMETER = 4.74  # of a part, over the square root of its particles: fit(); a square's is 4
 COLUMN_BYTES = 8
 HALO_COLUMNS = 5  # position, velocity, density
-GATHERED_COLUMNS, RETURNED_COLUMNS = 2, 2  # positions to the interface's owner, accelerations back
-REDUCED_BYTES = 128
+GATHERED_COLUMNS, RETURNED_COLUMNS = 4, 2  # positions and velocities to the interface's owner, accelerations back
+REDUCED_BYTES = 136
 CONTRIBUTION_BYTES = 24  # what a rank says of a cell
 ARC_BYTES = 96
 
