@@ -86,6 +86,18 @@ struct RowRange {
   std::int32_t begin = 0, end = 0;
 };
 
+/// Calls f(chunk) for the rows in ascending order, a chunk at a time: what several passes over columns touch stays in
+/// the core's cache from one to the next.
+template <class F>
+void for_each_chunk(std::span<const RowRange> rows, F&& f) {
+  constexpr std::int32_t chunk = 512;  // a multiple of every vector's length
+  for (const RowRange& range : rows)
+    for (std::int32_t begin = range.begin; begin < range.end; begin += chunk) {
+      const RowRange part{begin, std::min(begin + chunk, range.end)};
+      f(std::span<const RowRange>(&part, 1));
+    }
+}
+
 /// Where a row that must never interact sits: so far away that kernels vanish, near enough that squares stay finite.
 inline constexpr double far_away = 1e6;
 

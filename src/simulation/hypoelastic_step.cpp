@@ -23,8 +23,10 @@ void HypoelasticStep::relist(SolidParticles& solid, const Distribution&) {
 }
 
 void HypoelasticStep::predict(SolidParticles& solid, double previous_step) {
-  sphdrop::predict(solid, previous_step);
-  sweep_.update_stress(solid, solid.owned);
+  for_each_chunk(solid.owned, [&](std::span<const RowRange> rows) {
+    sphdrop::predict(solid, previous_step, rows);
+    sweep_.update_stress(solid, rows);
+  });
 }
 
 void HypoelasticStep::sweep_inner(SolidParticles& solid, const Distribution& distribution) {

@@ -127,12 +127,16 @@ void predict(FluidParticles& f, double previous_step) {
 }
 
 void predict(SolidParticles& s, double previous_step) {
+  predict(s, previous_step, s.owned);
+}
+
+void predict(SolidParticles& s, double previous_step, std::span<const RowRange> rows) {
   const double half = 0.5 * previous_step;
-  advance_column(s.owned, half, s.acceleration.x, s.staggered_velocity.x, s.velocity.x);
-  advance_column(s.owned, half, s.acceleration.y, s.staggered_velocity.y, s.velocity.y);
-  advance_column(s.owned, half, s.density_rate.columns[0], s.staggered_density.columns[0], s.density.columns[0]);
+  advance_column(rows, half, s.acceleration.x, s.staggered_velocity.x, s.velocity.x);
+  advance_column(rows, half, s.acceleration.y, s.staggered_velocity.y, s.velocity.y);
+  advance_column(rows, half, s.density_rate.columns[0], s.staggered_density.columns[0], s.density.columns[0]);
   for (std::size_t c = 0; c < 3; ++c)
-    advance_column(s.owned, half, s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
+    advance_column(rows, half, s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
                    s.deviatoric_stress.columns[c]);
 }
 
@@ -166,26 +170,28 @@ MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_l
 }
 
 MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_limit) {
-  for (const RowRange& range : s.owned)
-    for (std::int32_t row = range.begin; row < range.end; ++row) {
-      const auto k = static_cast<std::size_t>(row);
-      s.acceleration.x[k] *= 1.0 - s.is_fixed[k];
-      s.acceleration.y[k] *= 1.0 - s.is_fixed[k];
-    }
-  advance_column(s.owned, steps.kick(), s.acceleration.x, s.staggered_velocity.x, s.staggered_velocity.x);
-  advance_column(s.owned, steps.kick(), s.acceleration.y, s.staggered_velocity.y, s.staggered_velocity.y);
-  advance_column(s.owned, steps.kick(), s.density_rate.columns[0], s.staggered_density.columns[0],
-                 s.staggered_density.columns[0]);
-  for (std::size_t c = 0; c < 3; ++c)
-    advance_column(s.owned, steps.kick(), s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
-                   s.staggered_deviatoric_stress.columns[c]);
-  advance_column(s.owned, steps.next, s.staggered_velocity.x, s.position.x, s.position.x);
-  advance_column(s.owned, steps.next, s.staggered_velocity.y, s.position.y, s.position.y);
-  accumulate_energy(s.owned, steps.next, s.mass, s.dissipation_rate, s.dissipated_energy);
-  accumulate_energy(s.owned, steps.next, s.mass, s.artificial_stress_power, s.artificial_stress_work);
   SquaredMaximum speed, moved, none;
-  add_rows(s.owned, s.staggered_velocity, speed);
-  add_rows(s.owned, s.position, s.list_position, moved);
+  for_each_chunk(s.owned, [&](std::span<const RowRange> rows) {
+    for (const RowRange& range : rows)
+      for (std::int32_t row = range.begin; row < range.end; ++row) {
+        const auto k = static_cast<std::size_t>(row);
+        s.acceleration.x[k] *= 1.0 - s.is_fixed[k];
+        s.acceleration.y[k] *= 1.0 - s.is_fixed[k];
+      }
+    advance_column(rows, steps.kick(), s.acceleration.x, s.staggered_velocity.x, s.staggered_velocity.x);
+    advance_column(rows, steps.kick(), s.acceleration.y, s.staggered_velocity.y, s.staggered_velocity.y);
+    advance_column(rows, steps.kick(), s.density_rate.columns[0], s.staggered_density.columns[0],
+                   s.staggered_density.columns[0]);
+    for (std::size_t c = 0; c < 3; ++c)
+      advance_column(rows, steps.kick(), s.deviatoric_stress_rate.columns[c], s.staggered_deviatoric_stress.columns[c],
+                     s.staggered_deviatoric_stress.columns[c]);
+    advance_column(rows, steps.next, s.staggered_velocity.x, s.position.x, s.position.x);
+    advance_column(rows, steps.next, s.staggered_velocity.y, s.position.y, s.position.y);
+    accumulate_energy(rows, steps.next, s.mass, s.dissipation_rate, s.dissipated_energy);
+    accumulate_energy(rows, steps.next, s.mass, s.artificial_stress_power, s.artificial_stress_work);
+    add_rows(rows, s.staggered_velocity, speed);
+    add_rows(rows, s.position, s.list_position, moved);
+  });
   return finish(speed, moved, none, speed_limit);
 }
 

@@ -63,6 +63,7 @@ MotionMaxima motion_maxima(const FluidParticles& fluid, double speed_limit, Boxe
 /// Velocity and density (and deviatoric stress) of the owned rows at t from the staggered ones.
 void predict(FluidParticles& fluid, double previous_step);
 void predict(SolidParticles& solid, double previous_step);
+void predict(SolidParticles& solid, double previous_step, std::span<const RowRange> rows);
 
 /// Velocity alone, of a solid whose stress follows from its position.
 void predict_velocity(SolidParticles& solid, double previous_step);
