@@ -90,7 +90,7 @@ struct RowRange {
 /// the core's cache from one to the next.
 template <class F>
 void for_each_chunk(std::span<const RowRange> rows, F&& f) {
-  constexpr std::int32_t chunk = 512;  // a multiple of every vector's length
+  constexpr std::int32_t chunk = 128;  // 30 columns of so many fit the first cache; a multiple of every vector's length
   for (const RowRange& range : rows)
     for (std::int32_t begin = range.begin; begin < range.end; begin += chunk) {
       const RowRange part{begin, std::min(begin + chunk, range.end)};
