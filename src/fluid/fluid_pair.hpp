@@ -1,12 +1,11 @@
 #pragma once
 // What one liquid particle contributes to the rates of another (Eqs 9, 12, 17, 18).
 
-#include <algorithm>
-#include <cmath>
 #include <variant>
 
 #include "sph/artificial_viscosity.hpp"
 #include "sph/kernel.hpp"
+#include "sph/pair_separation.hpp"
 #include "sph/physical_viscosity.hpp"
 
 namespace sphdrop {
@@ -38,20 +37,17 @@ using AnyFluidPairParameters = std::variant<
     FluidPairParameters<CubicSpline, ArtificialViscosity>, FluidPairParameters<WendlandC2, ArtificialViscosity>,
     FluidPairParameters<CubicSpline, PhysicalViscosity>, FluidPairParameters<WendlandC2, PhysicalViscosity>>;
 
-/// Adds what j contributes to i. Out of the kernel's support, and for j = i, that is an exact zero.
+/// Adds what j contributes to i, the last step: products and sums alone. Out of the kernel's support, and for j = i,
+/// that is an exact zero.
 template <class Kernel, class Viscosity, class T>
 [[gnu::always_inline]] inline void add_fluid_pair(const FluidPairParameters<Kernel, Viscosity>& parameters,
-                                                  const FluidState<T>& i, const T& inverse_density_i,
-                                                  const FluidState<T>& j, FluidRates<T>& rates) {
-  using std::max;
-  using std::sqrt;
-  const T x = i.x - j.x, y = i.y - j.y;
+                                                  const InverseSeparation<T>& separation, const FluidState<T>& i,
+                                                  const T& inverse_density_i, const FluidState<T>& j,
+                                                  FluidRates<T>& rates) {
+  const T &x = separation.x, &y = separation.y;
   const T velocity_x = i.velocity_x - j.velocity_x, velocity_y = i.velocity_y - j.velocity_y;
-  const T squared_distance = x * x + y * y;
-  const T distance = sqrt(max(squared_distance, T(1e-60)));
-  const T densities = Viscosity::combined(i.density, j.density);
-  const InversePair<T> inverse(distance, parameters.viscosity.denominator(squared_distance, densities));
-  const T slope = parameters.kernel.slope(distance) * inverse.first;  // grad W = slope x_ij
+  const InversePair<T> inverse = separation.inverse();
+  const T slope = parameters.kernel.slope(separation.distance) * inverse.first;  // grad W = slope x_ij
   const T velocity_dot_distance = velocity_x * x + velocity_y * y;
   const T velocity_dot_gradient = velocity_dot_distance * slope;
 
@@ -61,12 +57,22 @@ template <class Kernel, class Viscosity, class T>
     rates.density_rate += i.density * j.volume * velocity_dot_gradient;
   else
     rates.density_rate += j.mass * velocity_dot_gradient;  // (9)
-  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, densities, inverse.second);
+  const T viscous = j.mass * parameters.viscosity(velocity_dot_distance, separation.densities, inverse.second);
   // (12): m_j (p_i + p_j)/(rho_i rho_j) = V_j (p_i + p_j)/rho_i
   const T force = (j.volume * (i.pressure + j.pressure) * inverse_density_i + viscous) * slope;
   rates.acceleration_x -= force * x;
   rates.acceleration_y -= force * y;
   rates.dissipation_rate += T(0.5) * viscous * velocity_dot_gradient;
+}
+
+/// All its steps.
+template <class Kernel, class Viscosity, class T>
+[[gnu::always_inline]] inline void add_fluid_pair(const FluidPairParameters<Kernel, Viscosity>& parameters,
+                                                  const FluidState<T>& i, const T& inverse_density_i,
+                                                  const FluidState<T>& j, FluidRates<T>& rates) {
+  const InverseSeparation<T> separation(Separation<T>(i.x - j.x, i.y - j.y), parameters.viscosity, i.density,
+                                        j.density);
+  add_fluid_pair(parameters, separation, i, inverse_density_i, j, rates);
 }
 
 }  // namespace sphdrop

@@ -39,8 +39,35 @@ void sweep(const Parameters& shared_parameters, const double* records, FluidPart
       const Pack inverse_density = Pack(1.0) / i.density;
       FluidRates<Pack> rates;
       const std::int32_t* neighbour_rows = list.neighbours.data() + std::int64_t{slice.first_entry} * block_size + lane;
-      for (std::int32_t entry = 0; entry < slice.entries; ++entry, neighbour_rows += block_size)
+      const auto separate = [&](const FluidState<Pack>& j) __attribute__((always_inline)) {
+        return Separation<Pack>(i.x - j.x, i.y - j.y);
+      };
+      const auto invert = [&](const Separation<Pack>& separation, const FluidState<Pack>& j)
+          __attribute__((always_inline)) {
+        return InverseSeparation<Pack>(separation, parameters.viscosity, i.density, j.density);
+      };
+      if (slice.entries > 1) {
+        // The steps of three pairs side by side.
+        FluidState<Pack> next = load_state(records, neighbour_rows);
+        InverseSeparation<Pack> next_inverse = invert(separate(next), next);
+        neighbour_rows += block_size;
+        FluidState<Pack> after_next = load_state(records, neighbour_rows);
+        Separation<Pack> after_next_separation = separate(after_next);
+        for (std::int32_t entry = 2; entry < slice.entries; ++entry) {
+          const FluidState<Pack> j = next;
+          const InverseSeparation<Pack> inverse = next_inverse;
+          next = after_next;
+          next_inverse = invert(after_next_separation, next);
+          neighbour_rows += block_size;
+          after_next = load_state(records, neighbour_rows);
+          after_next_separation = separate(after_next);
+          add_fluid_pair(parameters, inverse, i, inverse_density, j, rates);
+        }
+        add_fluid_pair(parameters, next_inverse, i, inverse_density, next, rates);
+        add_fluid_pair(parameters, invert(after_next_separation, after_next), i, inverse_density, after_next, rates);
+      } else if (slice.entries > 0) {
         add_fluid_pair(parameters, i, inverse_density, load_state(records, neighbour_rows), rates);
+      }
       const std::int64_t row = slice.first_row + lane;
       store(rates.density_rate, fluid.density_rate.data() + row);
       store(rates.acceleration_x, fluid.acceleration.x.data() + row);
@@ -69,9 +96,10 @@ void FluidSweep::apply(FluidParticles& fluid, const SlicedNeighbours& list) cons
       [&]<class Kernel, class Viscosity>(const FluidPairParameters<Kernel, Viscosity>& parameters) {
         if constexpr (std::is_same_v<Viscosity, ArtificialViscosity>)
           if (parameters.viscosity.beta == 0.0)
-            return sweep(FluidPairParameters<Kernel, LinearArtificialViscosity>{
-                             parameters.kernel, LinearArtificialViscosity(parameters.viscosity)},
-                         records_.data(), fluid, list);
+            return sweep(
+                FluidPairParameters<Kernel, LinearArtificialViscosity>{parameters.kernel,
+                                                                       LinearArtificialViscosity(parameters.viscosity)},
+                records_.data(), fluid, list);
         sweep(parameters, records_.data(), fluid, list);
       },
       parameters_);

@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <experimental/simd>
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
 
 namespace sphdrop {
 
@@ -27,35 +30,29 @@ inline void store(const Pack& value, double* p) {
 /// Loads one record of eight doubles (a cache line) per lane and returns component c of all lanes in result[c].
 [[gnu::always_inline]] inline std::array<Pack, 8> load_records(const double* records, const std::int32_t* lane_rows) {
 #if defined(__AVX512F__)
-  // Three rounds of shuffles transpose eight cache lines; element-wise loads would take 64.
+  // Eight cache lines are transposed in three rounds; element-wise loads would take 64. The first round, of halves of
+  // lines, is done by loading, which leaves the one port that can shuffle to the other two.
   using Line = double __attribute__((vector_size(64)));
-  using LineInMemory = double __attribute__((vector_size(64), aligned(8), may_alias));
-  const auto line = [&](int lane) -> Line {
-    return *reinterpret_cast<const LineInMemory*>(records + std::ptrdiff_t{8} * lane_rows[lane]);
+  const auto halves = [&](int lane, int half) -> Line {
+    const double* low = records + std::ptrdiff_t{8} * lane_rows[lane] + 4 * half;
+    const double* high = records + std::ptrdiff_t{8} * lane_rows[lane + 4] + 4 * half;
+    return static_cast<Line>(
+        _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1));
   };
-  const Line r0 = line(0), r1 = line(1), r2 = line(2), r3 = line(3), r4 = line(4), r5 = line(5), r6 = line(6),
-             r7 = line(7);
   const auto even = [](Line a, Line b) -> Line { return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14); };
   const auto odd = [](Line a, Line b) -> Line { return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15); };
-  const auto first_pairs = [](Line a, Line b) -> Line {
-    return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+  const auto first_pairs = [](Line a, Line b) {
+    return std::bit_cast<Pack>(Line(__builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13)));
   };
-  const auto last_pairs = [](Line a, Line b) -> Line {
-    return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+  const auto last_pairs = [](Line a, Line b) {
+    return std::bit_cast<Pack>(Line(__builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)));
   };
-  const auto low = [](Line a, Line b) {
-    return std::bit_cast<Pack>(Line(__builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11)));
-  };
-  const auto high = [](Line a, Line b) {
-    return std::bit_cast<Pack>(Line(__builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15)));
-  };
-  const Line e01 = even(r0, r1), e23 = even(r2, r3), e45 = even(r4, r5), e67 = even(r6, r7);
-  const Line o01 = odd(r0, r1), o23 = odd(r2, r3), o45 = odd(r4, r5), o67 = odd(r6, r7);
-  const Line c0 = first_pairs(e01, e23), c2 = last_pairs(e01, e23), d0 = first_pairs(e45, e67),
-             d2 = last_pairs(e45, e67);
-  const Line c1 = first_pairs(o01, o23), c3 = last_pairs(o01, o23), d1 = first_pairs(o45, o67),
-             d3 = last_pairs(o45, o67);
-  return {low(c0, d0), low(c1, d1), low(c2, d2), low(c3, d3), high(c0, d0), high(c1, d1), high(c2, d2), high(c3, d3)};
+  const Line a0 = halves(0, 0), a1 = halves(1, 0), a2 = halves(2, 0), a3 = halves(3, 0);
+  const Line b0 = halves(0, 1), b1 = halves(1, 1), b2 = halves(2, 1), b3 = halves(3, 1);
+  const Line e01 = even(a0, a1), e23 = even(a2, a3), o01 = odd(a0, a1), o23 = odd(a2, a3);
+  const Line f01 = even(b0, b1), f23 = even(b2, b3), p01 = odd(b0, b1), p23 = odd(b2, b3);
+  return {first_pairs(e01, e23), first_pairs(o01, o23), last_pairs(e01, e23), last_pairs(o01, o23),
+          first_pairs(f01, f23), first_pairs(p01, p23), last_pairs(f01, f23), last_pairs(p01, p23)};
 #else
   std::array<Pack, 8> result;
   for (int c = 0; c < 8; ++c)

@@ -96,11 +96,11 @@ struct RowRange {
   std::int32_t begin = 0, end = 0;
 };
 
-/// Calls f(rows) for runs of at most 256 rows, one after the other: what works on a few columns of a run at a time then
+/// Calls f(rows) for runs of at most 128 rows, one after the other: what works on a few columns of a run at a time then
 /// finds them in the cache, however many particles there are. All runs but a range's last are whole packs.
 template <class F>
 void for_each_run(std::span<const RowRange> rows, F&& f) {
-  constexpr std::int32_t most_rows = 256;
+  constexpr std::int32_t most_rows = 128;  // 30 columns of so many fit the first cache
   for (const RowRange& range : rows)
     for (std::int32_t begin = range.begin; begin < range.end; begin += most_rows) {
       const RowRange run{begin, std::min(begin + most_rows, range.end)};

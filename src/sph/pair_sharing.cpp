@@ -79,7 +79,7 @@ PairSharing PairSharing::plan(const OffsetNeighbours& list) {
   });
   // What is asked for must not be where the block swept now has written.
   plan.rows = *std::find_if(row_choices.begin(), row_choices.end(),
-                            [&](std::int32_t rows) { return furthest + block_size <= rows; });
+                            [&](std::int32_t choice) { return furthest + block_size <= choice; });
 
   // A slot goes from one offset to another when nobody can ask for its rows any more.
   struct Slot {

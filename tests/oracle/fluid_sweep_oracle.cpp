@@ -29,7 +29,7 @@ struct Rates {
 };
 
 /// The pair formula in scalars over all other particles in ascending id.
-std::vector<Rates> brute_force(const std::vector<FluidSample>& sample) {
+std::vector<Rates> brute_force(const std::vector<FluidSample>& sample, const FluidPairParameters<>& p = parameters) {
   const auto state = [&](std::size_t id) {
     const FluidSample& s = sample[id];
     return FluidState<double>{s.position.x, s.position.y,
@@ -42,7 +42,7 @@ std::vector<Rates> brute_force(const std::vector<FluidSample>& sample) {
     const FluidState<double> own = state(i);
     FluidRates<double> rates;
     for (std::size_t j = 0; j < sample.size(); ++j)
-      if (j != i) add_fluid_pair(parameters, own, 1.0 / own.density, state(j), rates);
+      if (j != i) add_fluid_pair(p, own, 1.0 / own.density, state(j), rates);
     result.push_back({rates.density_rate, rates.acceleration_x, rates.acceleration_y, rates.dissipation_rate});
   }
   return result;
@@ -51,7 +51,8 @@ std::vector<Rates> brute_force(const std::vector<FluidSample>& sample) {
 /// One step's use of the sweep: rows that need no ghosts first (`inner` of them), then the ghosts' records, then the
 /// other rows. Result by id; NaN for ids not owned.
 std::vector<Rates> swept(const std::vector<FluidSample>& sample, const std::vector<std::int32_t>& owned,
-                         const std::vector<std::int32_t>& ghosts, std::int32_t inner, double reach) {
+                         const std::vector<std::int32_t>& ghosts, std::int32_t inner, double reach,
+                         const FluidPairParameters<>& p = parameters) {
   FluidParticles fluid;
   test::fill(fluid, sample, owned, ghosts);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -62,7 +63,7 @@ std::vector<Rates> swept(const std::vector<FluidSample>& sample, const std::vect
   const auto end = static_cast<std::int32_t>(owned.size());
   const auto first = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, RowRange{0, inner}, reach);
   const auto rest = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, RowRange{inner, end}, reach);
-  FluidSweep sweep(parameters);
+  FluidSweep sweep(p);
   sweep.resize(fluid);
   sweep.pack(fluid, fluid.owned);
   sweep.apply(fluid, first);
@@ -106,6 +107,12 @@ TEST_F(FluidSweepOracle, EqualsThePairFormulaBitForBitWithAnySkin) {
     SCOPED_TRACE(reach / smoothing_length);
     expect_same_bits(swept(sample, all, {}, 0, reach), expected, all);
   }
+}
+
+TEST_F(FluidSweepOracle, EqualsThePairFormulaWithoutTheQuadraticTermOfViscosity) {
+  FluidPairParameters<> linear = parameters;
+  linear.viscosity.beta = 0.0;
+  expect_same_bits(swept(sample, all, {}, 0, support + 0.3 * spacing, linear), brute_force(sample, linear), all);
 }
 
 TEST_F(FluidSweepOracle, DoesNotDependOnTheOrderOfRows) {

@@ -24,9 +24,9 @@ using test::spacing;
 constexpr double support = 2 * smoothing_length;
 constexpr ElasticMaterial material{test::reference_density, 300e6, 0.3};
 
-HypoelasticParameters parameters(double trace_factor, double artificial_stress_coefficient) {
+HypoelasticParameters parameters(double trace_factor, double artificial_stress_coefficient, double beta = 0.5) {
   const CubicSpline kernel(smoothing_length);
-  return {{kernel, {2.0, 0.5, material.sound_speed(), smoothing_length}, 1.0 / kernel.value(spacing)},
+  return {{kernel, {2.0, beta, material.sound_speed(), smoothing_length}, 1.0 / kernel.value(spacing)},
           material,
           trace_factor,
           artificial_stress_coefficient};
@@ -135,10 +135,23 @@ TEST_F(HypoelasticSweepOracle, EqualsThePairFormulaBitForBitWithAnySkin) {
 }
 
 TEST_F(HypoelasticSweepOracle, EqualsThePairFormulaForOtherParameters) {
-  for (const HypoelasticParameters& other : {parameters(0.5, 0.5), parameters(1.0 / 3, 0.0)}) {
+  for (const HypoelasticParameters& other :
+       {parameters(0.5, 0.5), parameters(1.0 / 3, 0.0), parameters(1.0 / 3, 0.2, 0.0)}) {
     const std::vector<Rates> brute = brute_force(sample, other);
     const std::vector<Rates> result = swept(sample, all_owned, support + 0.3 * spacing, other);
     for (std::size_t id = 0; id < sample.size(); ++id) expect_same_bits(result[id], brute[id], id);
+  }
+}
+
+TEST_F(HypoelasticSweepOracle, EqualsThePairFormulaHoweverThickTheBeam) {
+  // From chains to more rows than pairs are kept for.
+  for (const auto& [columns, rows] : {std::pair{30, 1}, {20, 3}, {14, 22}, {7, 60}, {6, 110}}) {
+    SCOPED_TRACE(rows);
+    const std::vector<SolidSample> thick = test::random_solid(columns, rows, 122);
+    const std::vector<Rates> brute = brute_force(thick, p);
+    const std::vector<Rates> result =
+        swept(thick, std::vector<Presence>(thick.size(), Presence::owned), support + 0.3 * spacing, p);
+    for (std::size_t id = 0; id < thick.size(); ++id) expect_same_bits(result[id], brute[id], id);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "solid/hypoelastic/jaumann_rate.hpp"
 #include "sph/artificial_viscosity.hpp"
 #include "sph/kernel.hpp"
+#include "sph/pair_separation.hpp"
 
 namespace sphdrop {
 
@@ -38,59 +39,32 @@ struct HypoelasticPairParametersWith {
 };
 using HypoelasticPairParameters = HypoelasticPairParametersWith<ArtificialViscosity>;
 
-/// What a pair has in common: seen from the other particle the vectors change their sign and nothing else changes a bit,
-/// so that one evaluation serves both. Differences of velocity and sums of stress are not kept: they cost less than
-/// their place in the cache.
+/// What a pair has in common: seen from the other particle the vectors change their sign and nothing else changes a
+/// bit, so that one evaluation serves both. Differences of velocity and sums of stress are not kept: they cost less
+/// than their place in the cache.
 template <class T>
 struct HypoelasticInteraction {
   T gradient_x, gradient_y;  ///< grad_i W, 1/m3
   T velocity_dot_gradient;
-  T viscosity;  ///< Pi_ij (17), m5/(kg s2)
-  T weight;     ///< f^4 of (19)
+  T viscosity;                   ///< Pi_ij (17), m5/(kg s2)
+  T weight;                      ///< f^4 of (19)
   T artificial_x, artificial_y;  ///< (R_i + R_j) grad_i W
 };
 
-/// How far two particles are apart: the first step of an interaction, which ends with a square root.
-template <class T>
-struct Separation {
-  T x, y, squared_distance, distance;
-
-  [[gnu::always_inline]] Separation(const HypoelasticState<T>& i, const HypoelasticState<T>& j)
-      : x(i.x - j.x), y(i.y - j.y), squared_distance(x * x + y * y) {
-    using std::max;
-    using std::sqrt;
-    distance = sqrt(max(squared_distance, T(1e-60)));
-  }
-};
-
-/// The second step, a division: what the third divides by.
-template <class T>
-struct InverseSeparation : Separation<T> {
-  T density_sum, denominator, inverse_product;
-
-  template <class Viscosity>
-  [[gnu::always_inline]] InverseSeparation(const HypoelasticPairParametersWith<Viscosity>& parameters, const Separation<T>& separation,
-                                           const HypoelasticState<T>& i, const HypoelasticState<T>& j)
-      : Separation<T>(separation),
-        density_sum(i.density + j.density),
-        denominator(parameters.viscosity.denominator(separation.squared_distance, density_sum)),
-        inverse_product(InversePair<T>::of_product(separation.distance, denominator)) {}
-};
-
-/// The third step, products and sums alone.
+/// The last step of a pair: products and sums alone.
 template <class Viscosity, class T>
 [[gnu::always_inline]] inline HypoelasticInteraction<T> hypoelastic_interaction(
-    const HypoelasticPairParametersWith<Viscosity>& parameters, const InverseSeparation<T>& separation, const HypoelasticState<T>& i,
-    const HypoelasticState<T>& j) {
+    const HypoelasticPairParametersWith<Viscosity>& parameters, const InverseSeparation<T>& separation,
+    const HypoelasticState<T>& i, const HypoelasticState<T>& j) {
   HypoelasticInteraction<T> pair;
   const T &x = separation.x, &y = separation.y, &distance = separation.distance;
-  const InversePair<T> inverse(distance, separation.denominator, separation.inverse_product);
+  const InversePair<T> inverse = separation.inverse();
   const T slope = parameters.kernel.slope(distance) * inverse.first;  // grad W = slope x_ij
   pair.gradient_x = slope * x;
   pair.gradient_y = slope * y;
   const T velocity_dot_distance = (i.velocity_x - j.velocity_x) * x + (i.velocity_y - j.velocity_y) * y;
   pair.velocity_dot_gradient = velocity_dot_distance * slope;
-  pair.viscosity = parameters.viscosity(velocity_dot_distance, separation.density_sum, inverse.second);
+  pair.viscosity = parameters.viscosity(velocity_dot_distance, separation.densities, inverse.second);
 
   // (19): (R_i + R_j) f^4, f = W(r)/W(d)
   const T f = parameters.kernel.value(distance) * T(parameters.inverse_kernel_at_spacing);
@@ -156,7 +130,8 @@ template <class Viscosity, class T>
 [[gnu::always_inline]] inline void add_hypoelastic_pair(const HypoelasticPairParametersWith<Viscosity>& parameters,
                                                         const HypoelasticState<T>& i, const T& inverse_density_i,
                                                         const HypoelasticState<T>& j, HypoelasticRates<T>& rates) {
-  const InverseSeparation<T> separation(parameters, Separation<T>(i, j), i, j);
+  const InverseSeparation<T> separation(Separation<T>(i.x - j.x, i.y - j.y), parameters.viscosity, i.density,
+                                        j.density);
   add_interaction<SeenFrom::first>(hypoelastic_interaction(parameters, separation, i, j), i, inverse_density_i, j,
                                    rates);
 }

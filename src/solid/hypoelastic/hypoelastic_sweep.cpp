@@ -42,24 +42,34 @@ struct Columns {
       *artificial_xx, *artificial_yy, *artificial_xy;
 };
 
-/// Evaluates what a pack of rows keeps. The steps of an interaction are taken for three pairs at a time, one step each:
-/// the core, which looks only so far ahead, would wait for roots and divisions otherwise.
+/// Evaluates what a pack of rows keeps, the steps of three pairs side by side.
 template <class Parameters, class Shared>
 void keep_interactions(const Parameters& shared_parameters, const SolidParticles& s, std::int64_t row,
                        std::span<const PairSharing::Kept> kept, Shared shared) {
-  if (kept.empty()) return;
   const Parameters parameters = shared_parameters;
   const Columns columns(s);
   const HypoelasticState<Pack> i = columns.at(row);
-  const auto neighbour = [&](std::size_t k) [[gnu::always_inline]] { return columns.at(row + kept[k].offset); };
-  const std::size_t count = kept.size();
-  Separation<Pack> after_next(i, neighbour(0));
-  InverseSeparation<Pack> next(parameters, after_next, i, neighbour(0));
-  if (count > 1) after_next = Separation<Pack>(i, neighbour(1));
-  for (std::size_t k = 0; k < count; ++k) {
+  const auto neighbour = [&](std::size_t k) __attribute__((always_inline)) {
+    return columns.at(row + kept[k].offset);
+  };
+  InverseSeparation<Pack> next;
+  Separation<Pack> after_next;
+  const auto separate_next = [&](std::size_t k) __attribute__((always_inline)) {
+    if (k >= kept.size()) return;
+    const HypoelasticState<Pack> j = neighbour(k);
+    after_next = Separation<Pack>(i.x - j.x, i.y - j.y);
+  };
+  const auto invert_next = [&](std::size_t k) __attribute__((always_inline)) {
+    if (k < kept.size())
+      next = InverseSeparation<Pack>(after_next, parameters.viscosity, i.density, neighbour(k).density);
+  };
+  separate_next(0);
+  invert_next(0);
+  separate_next(1);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
     const InverseSeparation<Pack> now = next;
-    if (k + 1 < count) next = InverseSeparation<Pack>(parameters, after_next, i, neighbour(k + 1));
-    if (k + 2 < count) after_next = Separation<Pack>(i, neighbour(k + 2));
+    invert_next(k + 1);
+    separate_next(k + 2);
     shared.keep(kept[k].slot, row, hypoelastic_interaction(parameters, now, i, neighbour(k)));
   }
 }
@@ -72,8 +82,8 @@ struct Entries {
 };
 
 template <class Parameters, class Shared>
-void set_rates(const HypoelasticParameters& general, const Parameters& shared_parameters, SolidParticles& s, std::int64_t row,
-               const Entries& shared_entries, Shared shared) {
+void set_rates(const HypoelasticParameters& general, const Parameters& shared_parameters, SolidParticles& s,
+               std::int64_t row, const Entries& shared_entries, Shared shared) {
   const Parameters parameters = shared_parameters;
   const Entries entries = shared_entries;
   const Columns columns(s);
@@ -94,7 +104,8 @@ void set_rates(const HypoelasticParameters& general, const Parameters& shared_pa
   const SymmetricTensor<Pack> deviatoric{load(s.deviatoric_stress.xx.data() + row),
                                          load(s.deviatoric_stress.yy.data() + row),
                                          load(s.deviatoric_stress.xy.data() + row)};
-  const auto stress_rate = jaumann_stress_rate(rates.gradient, deviatoric, general.material.shear_modulus(), general.trace_factor);
+  const auto stress_rate =
+      jaumann_stress_rate(rates.gradient, deviatoric, general.material.shear_modulus(), general.trace_factor);
   store(rates.density_rate, s.density_rate.data() + row);
   store(rates.acceleration_x + rates.artificial_x, s.acceleration.x.data() + row);
   store(rates.acceleration_y + rates.artificial_y, s.acceleration.y.data() + row);

@@ -23,7 +23,8 @@ class SharedInteractions {
   explicit SharedInteractions(double* values) : values_(values) {}
 
   /// Keeps the pairs of a pack of rows, which does not reach over the end of a block.
-  [[gnu::always_inline]] void keep(std::int32_t slot, std::int64_t row, const HypoelasticInteraction<Pack>& pair) const {
+  [[gnu::always_inline]] void keep(std::int32_t slot, std::int64_t row,
+                                   const HypoelasticInteraction<Pack>& pair) const {
     const std::int64_t place = row & (rows - 1);
     write(values_ + slot * slot_size + place, pair);
     if (place < block_size) write(values_ + slot * slot_size + place + rows, pair);

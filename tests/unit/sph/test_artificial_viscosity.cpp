@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "particles/pack.hpp"
 #include "sph/artificial_viscosity.hpp"
@@ -81,6 +82,19 @@ TEST(ArtificialViscosity, PacksEqualScalarsBitForBit) {
     const Pack pi = pi_of(viscosity, load(vx.data()), load(r2.data()), load(rho.data()));
     for (std::size_t lane = 0; lane < pack_size; ++lane)
       EXPECT_TRUE(test::same_bits(pi[lane], pi_of(viscosity, vx[lane], r2[lane], rho[lane])));
+  }
+}
+
+TEST(LinearArtificialViscosity, HasTheBitsOfTheGeneralOneWithoutBeta) {
+  constexpr ArtificialViscosity general{.alpha = 0.1, .beta = 0, .sound_speed = 50, .smoothing_length = 3e-5};
+  const LinearArtificialViscosity linear(general);
+  test::RandomNumbers random(17);
+  for (int k = 0; k < 1000; ++k) {
+    // From impact to the first breath of a wave, far below what a double can hold in full.
+    const double product = random.between(-1, 1) * std::pow(10.0, random.between(-322, 0));
+    const double density_sum = random.between(1900, 2100), inverse = random.between(1e5, 1e9);
+    EXPECT_TRUE(test::same_bits(linear(product, density_sum, inverse), general(product, density_sum, inverse)))
+        << product;
   }
 }
 
