@@ -19,6 +19,8 @@ RUN: dict[str, str] = {
     "cases/sphdrop-sweep table 'solid.length=8 mm;12 mm' 'drop.velocity=[0, -0.5];[0, -1]' > table.csv": "",
     "/usr/bin/python3 cases/compare.py --list": "",
     "/usr/bin/python3 cases/modal_beam.py results/quickstart": "",
+    "/usr/bin/python3 cases/lobed_droplet/make_drops.py --folder results/finer --spacing 1.25e-5": "",
+    "build/release/src/sphdrop cases/lobed_droplet/case.cfg --set drop.particles_file=../../results/finer/mode_4.csv --set resolution.spacing=1.25e-5 --output results/lobed_finer": BRIEFLY,
 }
 
 # By CTest's names, with a word that the test's file holds.
