@@ -37,6 +37,7 @@ def swung_out(places: NDArray[np.complex128], mode: int) -> NDArray[np.complex12
 
 def write(folder: Path, spacing: float = SPACING) -> None:
     places, areas = disc(spacing)
+    folder.mkdir(parents=True, exist_ok=True)
     for mode in MODES:
         lines = [f"# R(1 + {AMPLITUDE:g} cos {mode} theta) with R = {RADIUS * 1e3:g} mm, {spacing * 1e3:g} mm apart; written by make_drops.py",
                  "x [mm],y [mm],mass [mg/m]"]

@@ -131,7 +131,8 @@ std::shared_ptr<const GivenParticles> read_particle_file(const std::string& path
   auto given = std::make_shared<GivenParticles>();
   given->file = file;
   given->path = std::filesystem::absolute(path).lexically_normal().string();
-  const std::filesystem::file_status status = std::filesystem::status(path);
+  std::error_code is_told_below;
+  const std::filesystem::file_status status = std::filesystem::status(path, is_told_below);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw ParticleFileError(fmt::format("is a {}, not a file ({})",
                                         std::filesystem::is_directory(status) ? "folder" : "pipe or device", path),
@@ -148,6 +149,7 @@ std::shared_ptr<const GivenParticles> read_particle_file(const std::string& path
       if (given->content.starts_with("sphdrop checkpoint"))
         refuse(fmt::format("{}: is a checkpoint; take a snapshot, which holds the drop too", file));
       std::vector<std::string_view> names;
+      names.reserve(known_columns.size());
       for (const KnownColumn& known : known_columns) names.push_back(known.name);
       table = parse_text_table(given->content, file, names);
     }

@@ -114,8 +114,8 @@ void hypoelastic_step(benchmark::State& state) {
   double previous = 0;
   const StepCost cost(beam.solid.size());
   for ([[maybe_unused]] auto _ : state) {
-    for_each_chunk(beam.solid.owned, [&](std::span<const RowRange> rows) {
-      predict(beam.solid, previous, rows);
+    for_each_run(beam.solid.owned, [&](std::span<const RowRange> rows) {
+      predict(beam.solid, rows, previous);
       beam.sweep.update_stress(beam.solid, rows);
     });
     beam.sweep.apply(beam.solid, beam.list, HypoelasticSweep::Blocks::without_ghosts);

@@ -20,6 +20,8 @@ RUN: dict[str, str] = {
     "/usr/bin/python3 cases/compare.py --list": "",
     "/usr/bin/python3 cases/modal_beam.py results/quickstart": "",
     "/usr/bin/python3 tests/benchmarks/scaling/model.py figure results/scaling.png": "",
+    "/usr/bin/python3 cases/lobed_droplet/make_drops.py --folder results/finer --spacing 1.25e-5": "",
+    "build/release/src/sphdrop cases/lobed_droplet/case.cfg --set drop.particles_file=../../results/finer/mode_4.csv --set resolution.spacing=1.25e-5 --output results/lobed_finer": BRIEFLY,
 }
 
 # By CTest's names, with a word that the test's file holds.
