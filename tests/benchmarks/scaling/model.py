@@ -222,6 +222,11 @@ def memory(particles: float, ranks: int, costs: Costs, design: Design = Design()
     return costs.replicated_bytes * whole + costs.particle_bytes * own, in_a_step
 
 
+def set_up_time(particles: float, ranks: int, costs: Costs, design: Design = Design()) -> float:
+    """Making the initial state, s."""
+    return costs.set_up_particle * (particles / ranks if design.shared_set_up else particles)
+
+
 def fit_perimeter(counted: Iterable[tuple[float, int, float]]) -> float:
     """The perimeter with which traffic() comes nearest to counted (particles, ranks, mean bytes), in the least squares of
     relative errors."""
@@ -283,10 +288,10 @@ def tables(costs: Costs) -> str:
         shares = " | ".join(f"{weak_efficiency(1e5, ranks, costs, design=design):.2f}" for design in MENDED.values())
         lines.append(f"| {ranks} | {1e5 * ranks:.0e} | {shares} |")
     lines += ["", "Memory of a rank:", ""]
-    lines += ["| particles | ranks | set up | in a step | set up, mended | in a step, mended |", "|---" * 6 + "|"]
+    lines += ["| particles | ranks | set up | in a step | set up, mended | in a step, mended | time to set up |", "|---" * 7 + "|"]
     for particles, ranks in ((1e6, 16), (1e8, 1024), (1e9, 10_000)):
         sizes = (*memory(particles, ranks, costs), *memory(particles, ranks, costs, Design(True, True, True)))
-        lines.append(f"| {particles:.0e} | {ranks} | " + " | ".join(f"{size / 1e9:.3g} GB" for size in sizes) + " |")
+        lines.append(f"| {particles:.0e} | {ranks} | " + " | ".join(f"{size / 1e9:.3g} GB" for size in sizes) + f" | {si(set_up_time(particles, ranks, costs))} |")
     return "\n".join(lines)
 
 

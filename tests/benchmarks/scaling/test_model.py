@@ -112,6 +112,11 @@ class MemoryTest(unittest.TestCase):
         self.assertGreater(model.memory(1e6, 1000, costs)[0], 40e6)
         self.assertAlmostEqual(model.memory(1e6, 1000, costs, Design(shared_set_up=True))[0], 440e3)
 
+    def test_so_is_the_time_to_make_it(self) -> None:
+        costs = replace(FREE, set_up_particle=1e-6)
+        self.assertAlmostEqual(model.set_up_time(1e6, 100, costs), 1.0)
+        self.assertAlmostEqual(model.set_up_time(1e6, 100, costs, Design(shared_set_up=True)), 0.01)
+
 
 class PageTest(unittest.TestCase):
     maxDiff = None
