@@ -8,6 +8,9 @@ namespace sphdrop {
 
 namespace {
 
+// What the steps of three pairs hold needs the 32 registers that come with vectors of eight.
+constexpr bool steps_side_by_side = pack_size == 8;
+
 // Rows past the end that a list may name as its padding, or that the last slice covers.
 constexpr std::size_t padding_records = block_size;
 
@@ -46,8 +49,7 @@ void sweep(const Parameters& shared_parameters, const double* records, FluidPart
           __attribute__((always_inline)) {
         return InverseSeparation<Pack>(separation, parameters.viscosity, i.density, j.density);
       };
-      if (slice.entries > 1) {
-        // The steps of three pairs side by side.
+      if (steps_side_by_side && slice.entries > 1) {
         FluidState<Pack> next = load_state(records, neighbour_rows);
         InverseSeparation<Pack> next_inverse = invert(separate(next), next);
         neighbour_rows += block_size;
@@ -65,8 +67,9 @@ void sweep(const Parameters& shared_parameters, const double* records, FluidPart
         }
         add_fluid_pair(parameters, next_inverse, i, inverse_density, next, rates);
         add_fluid_pair(parameters, invert(after_next_separation, after_next), i, inverse_density, after_next, rates);
-      } else if (slice.entries > 0) {
-        add_fluid_pair(parameters, i, inverse_density, load_state(records, neighbour_rows), rates);
+      } else {
+        for (std::int32_t entry = 0; entry < slice.entries; ++entry, neighbour_rows += block_size)
+          add_fluid_pair(parameters, i, inverse_density, load_state(records, neighbour_rows), rates);
       }
       const std::int64_t row = slice.first_row + lane;
       store(rates.density_rate, fluid.density_rate.data() + row);

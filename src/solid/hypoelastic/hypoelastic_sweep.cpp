@@ -42,6 +42,9 @@ struct Columns {
       *artificial_xx, *artificial_yy, *artificial_xy;
 };
 
+// What the steps of three pairs hold needs the 32 registers that come with vectors of eight.
+constexpr bool steps_side_by_side = pack_size == 8;
+
 /// Evaluates what a pack of rows keeps, the steps of three pairs side by side.
 template <class Parameters, class Shared>
 void keep_interactions(const Parameters& shared_parameters, const SolidParticles& s, std::int64_t row,
@@ -52,6 +55,15 @@ void keep_interactions(const Parameters& shared_parameters, const SolidParticles
   const auto neighbour = [&](std::size_t k) __attribute__((always_inline)) {
     return columns.at(row + kept[k].offset);
   };
+  if constexpr (!steps_side_by_side) {
+    for (const PairSharing::Kept& pair : kept) {
+      const HypoelasticState<Pack> j = columns.at(row + pair.offset);
+      const InverseSeparation<Pack> separation(Separation<Pack>(i.x - j.x, i.y - j.y), parameters.viscosity, i.density,
+                                               j.density);
+      shared.keep(pair.slot, row, hypoelastic_interaction(parameters, separation, i, j));
+    }
+    return;
+  }
   InverseSeparation<Pack> next;
   Separation<Pack> after_next;
   const auto separate_next = [&](std::size_t k) __attribute__((always_inline)) {
