@@ -34,8 +34,8 @@ inline void store(const Pack& value, double* p) {
   // lines, is done by loading, which leaves the one port that can shuffle to the other two.
   using Line = double __attribute__((vector_size(64)));
   const auto halves = [&](int lane, int half) -> Line {
-    const double* low = records + std::ptrdiff_t{8} * lane_rows[lane] + 4 * half;
-    const double* high = records + std::ptrdiff_t{8} * lane_rows[lane + 4] + 4 * half;
+    const double* low = records + std::ptrdiff_t{8} * lane_rows[lane] + std::ptrdiff_t{4} * half;
+    const double* high = records + std::ptrdiff_t{8} * lane_rows[lane + 4] + std::ptrdiff_t{4} * half;
     return static_cast<Line>(
         _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1));
   };

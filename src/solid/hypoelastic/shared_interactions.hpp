@@ -14,7 +14,7 @@ namespace sphdrop {
 /// first block stands once more behind the last, so that any consecutive rows are one load.
 template <std::int64_t rows>
 class SharedInteractions {
-  static_assert((rows & (rows - 1)) == 0 && rows >= 2 * block_size);
+  static_assert((rows & (rows - 1)) == 0 && rows >= std::int64_t{2} * block_size);
 
  public:
   static std::size_t size(std::int32_t slots) { return static_cast<std::size_t>(slots * slot_size); }
