@@ -152,8 +152,8 @@ def draw_speeds(results: Results) -> Figure | None:
             history_lines(panel, run, "deflection", MILLI, color=LINES[SPEEDS.index(speed)], **MODERN)
         panel.set(title=f"$L$ = {length} mm", xlabel="time  (ms)", ylabel=r"$\delta$  (mm)", xlim=(0, None))
     for speed, colour in zip(SPEEDS, LINES):
-        axes[0, 0].plot([], [], color=colour, label=f"{speed:.1f} m/s")
-    axes[0, 0].legend(title="$U_0$", loc="upper left", title_fontsize=7.5, ncols=2)
+        panel.plot([], [], color=colour, label=f"{speed:.1f} m/s")
+    panel.legend(title="$U_0$", loc="lower left", title_fontsize=7.5)
     return figure
 
 
