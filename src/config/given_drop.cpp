@@ -33,8 +33,7 @@ std::string mass_mistake(const Case& one) {
   if (given.mass.empty() || std::isnan(expected) || std::abs(mean - expected) <= tolerance * expected) return "";
   return fmt::format(
       "drop.particles_file: the masses of {} are {:.4g} kg/m in the mean, and particles {:g} m apart of {:g} kg/m3 "
-      "have "
-      "{:.4g} kg/m; leave the masses out and they get that",
+      "have {:.4g} kg/m; leave the masses out and they get that",
       given.file, mean, d, density_of(one), expected);
 }
 

@@ -206,8 +206,7 @@ SavedSimulation Simulation::save() const {
         rigid_body_.to_numbers()},
        {"gauge_pressure", "-",
         "the drop's gauge pressure and what it tends to (Pa), area within the curves (m2), energy of the surface by "
-        "its "
-        "changes (J/m)",
+        "its changes (J/m)",
         gauge_.to_numbers()},
        {"shifting", "J/m", "energy that shifts have added", shifting_.to_numbers()}}};
 }
