@@ -100,17 +100,11 @@ struct RecordedCase {
 class GivenDropsOnRanks : public testing::TestWithParam<RecordedCase> {};
 
 TEST_P(GivenDropsOnRanks, AllRanksTogetherGiveWhatOneGivesAlone) {
-  const Communicator world(MPI_COMM_WORLD), self(MPI_COMM_SELF);
   const RecordedCase& c = GetParam();
-  const auto run = [&](const Communicator& communicator, const std::vector<std::string>& overrides = {}) {
+  const auto run = [&](const Communicator& communicator, const std::vector<std::string>& overrides) {
     return test::run_steps(communicator, parse_case_text(c.text, "test.cfg", overrides, peanut).values, c.steps);
   };
-  const WholeState together = run(world), restless = run(world, {"parallel.repartition_interval=37"});
-  if (world.rank() != 0) return;
-  const WholeState alone = run(self);
-  EXPECT_EQ(alone.hash, c.recorded_hash) << fmt::format("it is now 0x{:016x}", alone.hash);
-  test::expect_equal(alone, together, "together");
-  test::expect_equal(alone, restless, "with forced repartitions");
+  test::expect_equal_on_ranks(run, c.steps, c.recorded_hash);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, GivenDropsOnRanks,

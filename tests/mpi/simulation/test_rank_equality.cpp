@@ -366,16 +366,8 @@ artificial_stress_coefficient = 0.0
 class RankEquality : public testing::TestWithParam<EqualityCase> {};
 
 TEST_P(RankEquality, AllRanksTogetherGiveWhatOneGivesAlone) {
-  const Communicator world(MPI_COMM_WORLD), self(MPI_COMM_SELF);
   const EqualityCase& c = GetParam();
-  const WholeState together = run_steps(world, c.text, c.steps);
-  const WholeState restless = run_steps(world, c.text, c.steps, {"parallel.repartition_interval=37"});
-  EXPECT_GT(restless.redistributions, c.steps / 37);
-  if (world.rank() != 0) return;
-  const WholeState alone = run_steps(self, c.text, c.steps);
-  EXPECT_EQ(alone.hash, c.recorded_hash) << fmt::format("it is now 0x{:016x}", alone.hash);
-  expect_equal(alone, together, "together");
-  expect_equal(alone, restless, "with forced repartitions");
+  test::expect_case_equal_on_ranks(c.text, c.steps, c.recorded_hash);
 }
 
 // Lists that reach further hold more pairs out of range, and age longer; neither may show.

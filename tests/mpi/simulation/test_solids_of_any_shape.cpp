@@ -119,14 +119,9 @@ polygon = [[-1e-3, -0.5e-3], [1e-3, -0.5e-3], [0.7e-3, 0.2e-3], [-0.6e-3, 0.0]]
 class ShapeEquality : public testing::TestWithParam<ShapeCase> {};
 
 TEST_P(ShapeEquality, AllRanksTogetherGiveWhatOneGivesAlone) {
-  const Communicator world(MPI_COMM_WORLD), self(MPI_COMM_SELF);
   const ShapeCase& c = GetParam();
-  const WholeState together = run_steps(world, c.text, c.steps);
-  const WholeState restless = run_steps(world, c.text, c.steps, {"parallel.repartition_interval=37"});
-  EXPECT_GT(restless.redistributions, c.steps / 37);
-  if (world.rank() != 0) return;
-  const WholeState alone = run_steps(self, c.text, c.steps);
-  EXPECT_EQ(alone.hash, c.recorded_hash) << fmt::format("it is now 0x{:016x}", alone.hash);
+  const WholeState alone = test::expect_case_equal_on_ranks(c.text, c.steps, c.recorded_hash);
+  if (alone.observations.empty()) return;  // not on rank 0
   // The drop meets every solid.
   EXPECT_GT(alone.observations.back().contact_count, 0);
   for (std::size_t k = 0; k < alone.observations.back().solids.size(); ++k) {
@@ -134,8 +129,6 @@ TEST_P(ShapeEquality, AllRanksTogetherGiveWhatOneGivesAlone) {
     for (const Observation& o : alone.observations) largest = std::max(largest, std::abs(o.solids[k].contact_force_x));
     EXPECT_GT(largest, 0.0) << "solid " << k + 1;
   }
-  expect_equal(alone, together, "together");
-  expect_equal(alone, restless, "with forced repartitions");
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, ShapeEquality,
