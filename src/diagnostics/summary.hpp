@@ -87,6 +87,7 @@ struct RunSummary {
   std::vector<PhaseTime> phases;
   std::int64_t particles = 0;
   int ranks = 1;
+  std::string instructions;          ///< what the sweeps are compiled for; empty: unsaid
   double load_imbalance = 1;         ///< the busiest rank's computing time over the mean
   std::vector<RankTraffic> traffic;  ///< of what happened; shown where there are several ranks
   double peak_memory = 0;            ///< of the rank with the most, bytes; 0: unknown
