@@ -57,17 +57,10 @@ class VectorSources(unittest.TestCase):
                     return True
             return False
 
-        commands = json.loads((build_folder() / "compile_commands.json").read_text(encoding="utf-8"))
-        compiled = {Path(command["directory"], command["file"]).resolve() for command in commands
-                    if "vectors_x86-64-v3.dir/" in command["command"]}
-        named = {path for path in program_files() if (ROOT / path).resolve() in compiled}
-        seeing = {path for path in program_files() if path.suffix == ".cpp" and sees_it(path)}
-        self.assertEqual(named, seeing)
+        named = {Path(name) for name in os.environ["SPHDROP_VECTOR_SOURCES"].split(":")}
+        seeing = {ROOT / path for path in program_files() if path.suffix == ".cpp" and sees_it(path)}
+        self.assertEqual(named - {build_folder() / "io/build_info.cpp"}, seeing)
         self.assertGreater(len(seeing), 10)
-        self.assertIn(build_folder() / "io/build_info.cpp", compiled)
-        for command in commands:
-            if "vectors_x86-64-v3.dir/" in command["command"]:
-                self.assertEqual(re.findall(r" -march=(\S+)", command["command"]), ["x86-64-v3"])
 
 
 @unittest.skipUnless("SPHDROP_LAUNCHER" in os.environ, "the processor cannot be asked here")
