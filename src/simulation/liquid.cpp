@@ -18,11 +18,15 @@ bool Simulation::has_density_diffusion() const {
          case_.fluid.density_diffusion > 0;
 }
 
+bool Simulation::density_correction_is_due() const {
+  const std::int64_t interval = case_.fluid.density_correction_interval;
+  return case_.fluid.density_treatment == DensityTreatment::moving_least_squares && interval > 0 && step_ > 0 &&
+         step_ % interval == 0;
+}
+
 void Simulation::predict_liquid() {
   if (gauge_.is_enabled()) gauge_.relax(fluid_, steps_.previous);
-  const std::int64_t interval = case_.fluid.density_correction_interval;
-  const bool is_corrected = case_.fluid.density_treatment == DensityTreatment::moving_least_squares && interval > 0 &&
-                            step_ > 0 && step_ % interval == 0;
+  const bool is_corrected = density_correction_is_due();
   const auto make_ready = [&](std::span<const RowRange> rows) {
     set_liquid_pressure(rows);
     fluid_sweep_.pack(fluid_, rows, gauge_.pressure());
