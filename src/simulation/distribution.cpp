@@ -72,13 +72,15 @@ bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
   const std::span<const int> solid_destination = std::span(destination).subspan(fluid_rows);
   const bool solid_changes = solid_changes_ranks(solid_destination);
   if (solid_changes) migrate(communicator_, solid, solid_destination, tags::migration + 1);
-  if (!drop_is_rigid_) make_fluid_ghosts(fluid);
-  std::copy(fluid.position.x.begin(), fluid.position.x.end(), fluid.list_position.x.begin());
-  std::copy(fluid.position.y.begin(), fluid.position.y.end(), fluid.list_position.y.begin());
-  if (solid_changes)
-    make_solid_ghosts(solid);
-  else
-    solid.list_position.take(solid.position);
+  // Ghosts of both before lists of either: a rank without liquid would wait for the other ranks' lists of it.
+  std::int32_t inner_fluid_rows = 0;
+  if (!drop_is_rigid_) inner_fluid_rows = make_fluid_ghosts(fluid);
+  fluid.list_position.take(fluid.position);
+  if (solid_changes) make_solid_ghosts(solid);
+  solid.list_position.take(solid.position);
+  if (!drop_is_rigid_) list_fluid(fluid, inner_fluid_rows);
+  if (solid_changes && !solid_is_total_lagrangian_)
+    solid_ = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, solid_reach_);
   has_distributed_solid_ = true;
   return solid_changes;
 }
@@ -139,9 +141,8 @@ std::int32_t Distribution::sort_fluid(FluidParticles& fluid) const {
                                    keys.begin());
 }
 
-void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
-  const std::size_t owned = fluid.size();
-  // The old lists first: old and new together would be the most memory that a run takes.
+std::int32_t Distribution::make_fluid_ghosts(FluidParticles& fluid) {
+  // The old lists go first: old and new together would be the most memory that a run takes.
   inner_fluid_ = {};
   border_fluid_ = {};
   const std::int32_t inner = sort_fluid(fluid);
@@ -149,19 +150,20 @@ void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
   // The halo of detection reaches the circles that overlap a particle's own, 4h away.
   wide_halo_ =
       halo_plan(communicator_, fluid, fluid.position, partition_, 2.0 * range_.support + range_.skin, tags::wide_halo);
-  const auto end = static_cast<std::int32_t>(owned);
-  inner_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {0, inner}, range_.list_reach());
-  border_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {inner, end}, range_.list_reach());
+  return inner;
+}
+
+void Distribution::list_fluid(const FluidParticles& fluid, std::int32_t inner_rows) {
+  const auto end = static_cast<std::int32_t>(fluid.owned_count());
+  const VectorField& place = fluid.position;
+  inner_fluid_ = SlicedNeighbours::build(fluid, place.x, place.y, {0, inner_rows}, range_.list_reach());
+  border_fluid_ = SlicedNeighbours::build(fluid, place.x, place.y, {inner_rows, end}, range_.list_reach());
 }
 
 void Distribution::make_solid_ghosts(SolidParticles& solid) {
   VectorField& place = solid_is_total_lagrangian_ ? solid.reference_position : solid.position;
   solid_halo_ = make_halo(communicator_, solid, place, partition_, solid_reach_, tags::solid_halo);
   sort_by_id(solid, solid_halo_);
-  if (!solid_is_total_lagrangian_)
-    solid_ = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, solid_reach_);
-  std::copy(solid.position.x.begin(), solid.position.x.end(), solid.list_position.x.begin());
-  std::copy(solid.position.y.begin(), solid.position.y.end(), solid.list_position.y.begin());
 }
 
 }  // namespace sphdrop

@@ -72,7 +72,9 @@ class Distribution {
   /// Rows near other ranks last; within the two groups by cell, so that neighbours are near in memory. Returns how many
   /// are not near others.
   std::int32_t sort_fluid(FluidParticles& fluid) const;
-  void make_fluid_ghosts(FluidParticles& fluid);
+  /// Returns how many rows need no ghosts.
+  std::int32_t make_fluid_ghosts(FluidParticles& fluid);
+  void list_fluid(const FluidParticles& fluid, std::int32_t inner_rows);
   void make_solid_ghosts(SolidParticles& solid);
 
   const Communicator& communicator_;
