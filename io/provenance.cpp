@@ -94,6 +94,7 @@ std::string RunRecord::json() const {
   built.set("compiler", build.compiler);
   built.set("flags", build.flags);
   built.set("architecture", build.architecture);
+  built.set("vector_width", build.vector_width);
   JsonObject libraries;
   libraries.set("mpi", mpi_version());
   libraries.set("hdf5", hdf5_version());

@@ -9,20 +9,11 @@
 #include <vector>
 
 #include "decomposition/communicator.hpp"
+#include "io/build_info.hpp"
 #include "io/collective_error.hpp"
 #include "io/json.hpp"
 
 namespace sphdrop {
-
-/// How the program was built.
-struct BuildInfo {
-  std::string version;     ///< of the program
-  std::string git_commit;  ///< at configure time, "+changes" behind it if the checkout had any; or "unknown"
-  std::string compiler;
-  std::string flags;
-  std::string architecture;  ///< as for -march
-};
-const BuildInfo& build_info();
 
 /// run.json could not be written.
 class RunRecordError : public CollectiveError {

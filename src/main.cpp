@@ -10,7 +10,7 @@
 #include "config/command_line.hpp"
 #include "decomposition/communicator.hpp"
 #include "decomposition/stop_signal.hpp"
-#include "io/provenance.hpp"
+#include "io/build_info.hpp"
 #include "run/exit_code.hpp"
 #include "run/failure.hpp"
 #include "run/run_case.hpp"
@@ -28,7 +28,9 @@ int main(int argc, char** argv) {
     return command.exit_code;
   }
   if (command.action == CommandLine::Action::version) {
-    say(communicator, stdout, fmt::format("sphdrop {}, commit {}\n", version_text(), build_info().git_commit));
+    say(communicator, stdout,
+        fmt::format("sphdrop {}, commit {}, {}\n", version_text(), build_info().git_commit,
+                    instruction_text(build_info())));
     return success;
   }
   try {

@@ -70,6 +70,8 @@ def page(program: str) -> str:
         parts.append(f".TP\n.B {roff(key)}\n{roff(takes)}.\n{roff(text)}.")
     parts.append(".SH EXIT STATUS")
     parts += [f".TP\n.B {code}\n{roff(text)}" for code, text in EXIT_CODES]
+    parts.append(".SH ENVIRONMENT\n.TP\n.B SPHDROP_ARCH\nWhere the program is installed for several instruction sets, it takes the "
+                 "processor's best of them; this names another, as\n.BR x86\\-64\\-v3 .\nThe results have the same bits with each.")
     parts.append(".SH SIGNALS\nSIGTERM, SIGINT, SIGUSR1 and SIGUSR2 finish the step, write a checkpoint and end the run with exit status 5.")
     parts.append(".SH SEE ALSO\n.BR mpirun (1)\n.PP\nX. Dong, X. Huang, J. Liu, European Journal of Mechanics A/Solids 75 (2019) 237\\-257.")
     return "\n".join(parts) + "\n"

@@ -158,6 +158,7 @@ void write_time(Text& text, const RunSummary& summary) {
     text.entry("per particle and step",
                fmt::format("{:.1f} ns ({} particles, {} steps, {} rank{})", 1e9 * summary.wall_time / updates,
                            summary.particles, steps, summary.ranks, summary.ranks == 1 ? "" : "s"));
+  if (!summary.instructions.empty()) text.entry("compiled for", summary.instructions);
   text.entry("load, largest / mean", fmt::format("{:.3f}", summary.load_imbalance));
   if (summary.ranks > 1)
     text.entry("work, largest / mean", fmt::format("{:.3f} by the last of {} partition{}", summary.partition_imbalance,

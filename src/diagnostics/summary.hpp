@@ -87,6 +87,7 @@ struct RunSummary {
   std::vector<PhaseTime> phases;
   std::int64_t particles = 0;
   int ranks = 1;
+  std::string instructions;          ///< what the sweeps are compiled for; empty: unsaid
   double load_imbalance = 1;         ///< the busiest rank's computing time over the mean
   double partition_imbalance = 1;    ///< the largest share of the work over the mean, by the partition's weights
   std::int64_t repartitions = 0;     ///< how often the particles have been dealt out anew

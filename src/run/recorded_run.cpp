@@ -106,6 +106,7 @@ void RecordedRun::record_unsafe_state(const SafetyError& error) {
 RunSummary RecordedRun::finish() {
   const std::uint64_t hash = recorder_->finish();
   RunSummary summary = recorder_->summary();
+  summary.instructions = instruction_text(build_info());
   record_->set("particles", summary.particles);
   record_->set("steps", summary.steps);
   record_->set("simulated_time", summary.simulated_time);

@@ -53,6 +53,7 @@ TESTED: dict[str, tuple[str, str]] = {
     "build/release/src/sphdrop cases/cantilever/case.cfg --output results/cantilever --restart auto":
         ("cluster.hosts", "oob_tcp_keepalive_time"),
     "/usr/bin/python3 tests/benchmarks/scaling/model.py page": ("benchmarks.scaling_model", "test_its_tables_are_those_of_the_model"),
+    "SPHDROP_ARCH=x86-64-v3 sphdrop --version": ("repository.instruction_sets", "SPHDROP_ARCH"),
     'cmake -G Ninja -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
         ("repository.library", "share/sphdrop/cases/probe"),
     "mpirun -np 2 build/probe/probe cases/quickstart/case.cfg results/probe": ("repository.library", "build/probe"),
@@ -63,7 +64,7 @@ NOT_RUN: dict[str, str] = {
     "cmake --preset release": "tests/run.sh does before the tests",
     "cmake --build --preset release": "tests/run.sh does before the tests",
     "ctest --preset release": "tests/run.sh does, and this test with it",
-    "cmake --preset package && cmake --build --preset package": "a second build of all; another test installs the first one",
+    "cmake --preset package && cmake --build --preset package": "a second build of all: repository.instruction_sets with SPHDROP_LONG_TESTS=1; another test installs the first one",
     "cmake --install build/package --prefix ~/.local": "repository.packaging installs another build elsewhere",
     "jobs/install_packages.sh --packaging": "it changes the machine; tests/run.sh installs the same with --tests",
     "cd build/package && cpack && sudo apt install ./sphdrop_*.deb": "it changes the machine; repository.packaging makes the package of another build",

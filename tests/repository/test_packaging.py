@@ -48,7 +48,7 @@ class InstalledTree(unittest.TestCase):
     def test_the_manual_page_has_every_option_and_parameter(self) -> None:
         page = (self.tree / "share/man/man1/sphdrop.1").read_text().replace("\\-", "-")
         self.assertGreater(len(self.parameters), 40)
-        for name in (*self.parameters, "--restart", "--print-case", "--max-walltime"):
+        for name in (*self.parameters, "--restart", "--print-case", "--max-walltime", "SPHDROP_ARCH", "x86-64-v3"):
             self.assertIn(name, page)
         if shutil.which("man"):
             warned = subprocess.run(["man", "-l", "--warnings", "-P", "cat", self.tree / "share/man/man1/sphdrop.1"], capture_output=True,

@@ -332,7 +332,8 @@ TEST_F(Snapshot, RunRecordSaysWhatIsKnown) {
        {std::string("\"status\": \"completed\""), std::string("\"state_hash\": \"000000000000fedc\""),
         std::string(R"("command_line": ["sphdrop", "a \"quoted\" case.cfg"])"), std::string("\"repartitions\": 3"),
         "\"ranks\": " + std::to_string(world_.size()), std::string("\"mpi\": \"Open MPI"),
-        std::string("\"wall_time_seconds\": "), "\"version\": \"" + build_info().version + "\""}) {
+        std::string("\"wall_time_seconds\": "), "\"version\": \"" + build_info().version + "\"",
+        "\"vector_width\": " + std::to_string(build_info().vector_width)}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
 }

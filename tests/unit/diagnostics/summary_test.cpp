@@ -25,6 +25,7 @@ RunSummary full() {
   run.phases = {{"fluid sweep", 40.0}, {"solid sweep", 35.0}};
   run.particles = 5000;
   run.ranks = 2;
+  run.instructions = "x86-64-v3, vectors of 4 doubles";
   run.load_imbalance = 1.07;
   run.partition_imbalance = 1.034;
   run.repartitions = 3;
@@ -133,6 +134,7 @@ TEST(Summary, WallTimeAndLoad) {
   EXPECT_EQ(row_of(text, "other"), "25.000 25.0");
   EXPECT_EQ(row_of(text, "total"), "100.000 100.0");
   EXPECT_EQ(value_of(text, "per particle and step"), "12.5 ns (5000 particles, 1600000 steps, 2 ranks)");
+  EXPECT_EQ(value_of(text, "compiled for"), "x86-64-v3, vectors of 4 doubles");
   EXPECT_EQ(value_of(text, "load, largest / mean"), "1.070");
   EXPECT_EQ(value_of(text, "work, largest / mean"), "1.034 by the last of 3 partitions");
 }
