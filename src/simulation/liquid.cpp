@@ -121,9 +121,10 @@ void Simulation::damp_resting_drop() {
 void Simulation::start_drop() {
   fluid_.for_each_owned([&](std::size_t row) {
     fluid_.staggered_velocity.set(row, drop_velocity(case_, fluid_.position.at(row) - drop_centre_));
-    fluid_.dissipated_energy[row] = fluid_.correction_energy[row] = fluid_.shift_energy[row] = 0.0;
-    fluid_.gauge_energy[row] = 0.0;
   });
+  for (ScalarField* energy :
+       {&fluid_.dissipated_energy, &fluid_.correction_energy, &fluid_.shift_energy, &fluid_.gauge_energy})
+    std::fill(energy->columns[0].begin(), energy->columns[0].end(), 0.0);
   surface_tension_.start_ledger();
   gauge_.start_ledger();
   shifting_.start_ledger();

@@ -87,7 +87,12 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
     fluid_.density_gradient.leave_out();
     fluid_.density_diffusion.leave_out();
   }
-  if (!shifting_.is_enabled()) fluid_.surface_orientation.leave_out();
+  if (!shifting_.is_enabled()) {
+    fluid_.surface_orientation.leave_out();
+    fluid_.shift_energy.leave_out();
+  }
+  if (!gauge_.is_enabled()) fluid_.gauge_energy.leave_out();
+  if (!rigid_body_.is_enabled()) fluid_.body_offset.leave_out();
   solid_ghosted_ = solid_step_->ghosted(solid_);
   correction_ghosted_ = {&fluid_.position.x, &fluid_.position.y, &fluid_.density.columns[0]};
   take_initial_state(initial_fluid, initial_solid);
