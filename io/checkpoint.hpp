@@ -11,6 +11,7 @@
 
 #include "decomposition/communicator.hpp"
 #include "io/collective_error.hpp"
+#include "io/pieces.hpp"
 
 namespace sphdrop {
 
@@ -36,7 +37,7 @@ struct CheckpointColumn {
   std::string name;  ///< letters, digits and underscores
   std::string unit;  ///< SI; "1" without dimension
   std::string description;
-  std::span<const double> values;
+  Pieces<double> values;  ///< where they lie
 };
 
 /// This rank's rows of a table. Every rank gives the same tables and columns in the same order.
@@ -45,7 +46,7 @@ struct CheckpointTable {
   std::int64_t total_rows = 0;
   /// Shape [n], in any order. Those of all ranks together are first_id ... first_id + total_rows - 1, once each, where
   /// first_id, the smallest, is not negative.
-  std::span<const std::int64_t> ids;
+  Pieces<std::int64_t> ids;
   std::vector<CheckpointColumn> columns;
 };
 
@@ -61,10 +62,9 @@ struct CheckpointNumbers {
 /// number of ranks or on who owns what; of the numbers those of rank 0 are written. The file is written aside on space
 /// reserved beforehand, sealed by checksums, flushed to the disk, read back and compared, and only then renamed. After
 /// that all checkpoints go that are older than the newest `keep` (at least 1), and so do those of later steps, which
-/// the run has given up by going back to an earlier one, and what crashes left of others. Takes as much memory as the
-/// columns themselves, and a column more.
-/// Throws CheckpointError on all ranks, earlier checkpoints being untouched; ends the program if HDF5 cannot even close
-/// the file (see Hdf5File::close).
+/// the run has given up by going back to an earlier one, and what crashes left of others. Takes a few bytes a row
+/// beside the columns. Throws CheckpointError on all ranks, earlier checkpoints being untouched; ends the program if
+/// HDF5 cannot even close the file (see Hdf5File::close).
 std::filesystem::path write_checkpoint(const Communicator& communicator, const std::filesystem::path& directory,
                                        const CheckpointHeader& header, std::span<const CheckpointTable> tables,
                                        std::span<const CheckpointNumbers> numbers, int keep = 2);

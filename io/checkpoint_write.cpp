@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
+#include <list>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -68,30 +68,24 @@ void check_arguments(const CheckpointHeader& header, std::span<const CheckpointT
 }
 
 TableOutline outline_of(const Communicator& communicator, const CheckpointTable& table) {
-  const auto smallest = std::min_element(table.ids.begin(), table.ids.end());
   const std::int64_t none = std::numeric_limits<std::int64_t>::max();
-  const std::int64_t first_id = communicator.min(smallest == table.ids.end() ? none : *smallest);
+  std::int64_t smallest = none;
+  table.ids.for_each([&](std::size_t, std::int64_t id) { smallest = std::min(smallest, id); });
+  const std::int64_t first_id = communicator.min(smallest);
   return {table.name, table.total_rows, first_id == none ? 0 : first_id};
 }
 
-/// Column by column, as an exchange of all at once would need all their memory twice more.
-void append_columns(const Communicator& communicator, const CheckpointTable& table, const TableOutline& outline,
-                    std::vector<DatasetRows>& datasets) {
-  RowsById by_id(communicator, outline.first_id, outline.total_rows, table.ids);
-  for (const CheckpointColumn& column : table.columns) {
-    DatasetRows rows{"/" + table.name + "/" + column.name,
-                     column.unit,
-                     column.description,
-                     Hdf5Type::float64,
-                     table.total_rows,
-                     1,
-                     by_id.block().first,
-                     std::vector<std::byte>(static_cast<std::size_t>(by_id.block().size()) * sizeof(double))};
-    const std::array<const void*, 1> source = {column.values.data()};
-    const std::array<void*, 1> target = {rows.bytes.data()};
-    by_id.redistribute(source, target);
-    datasets.push_back(std::move(rows));
-  }
+/// The datasets refer to `by_id` and to the table.
+void append_columns(const CheckpointTable& table, RowsById& by_id, std::vector<DatasetRows>& datasets) {
+  for (const CheckpointColumn& column : table.columns)
+    datasets.push_back({"/" + table.name + "/" + column.name, column.unit, column.description, Hdf5Type::float64,
+                        table.total_rows, 1, by_id.part_count(),
+                        [&by_id, &column](int part, std::vector<std::byte>& bytes) {
+                          const RowBlock rows = by_id.part(part);
+                          bytes.resize(static_cast<std::size_t>(rows.size()) * sizeof(double));
+                          by_id.gather(part, column.values, bytes.data());
+                          return rows.first;
+                        }});
 }
 
 bool same_bytes(std::span<const double> a, std::span<const double> b) {
@@ -126,9 +120,11 @@ std::filesystem::path write_checkpoint(const Communicator& communicator, const s
     collectively<CollectiveError>(communicator, [&] { check_arguments(header, tables, numbers, keep); });
     std::vector<TableOutline> outlines;
     std::vector<DatasetRows> datasets;
+    std::list<RowsById> rows_of_tables;
     for (const CheckpointTable& table : tables) {
-      outlines.push_back(outline_of(communicator, table));
-      append_columns(communicator, table, outlines.back(), datasets);
+      const TableOutline& outline = outlines.emplace_back(outline_of(communicator, table));
+      append_columns(table, rows_of_tables.emplace_back(communicator, outline.first_id, outline.total_rows, table.ids),
+                     datasets);
     }
     DurableHdf5 plan;
     plan.user_block = checkpoint_head_bytes;

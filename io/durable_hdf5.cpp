@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <optional>
 #include <system_error>
+#include <vector>
 
 #include "io/collective_error.hpp"
+#include "io/file_checksum.hpp"
 #include "io/memory_file.hpp"
 #include "io/posix_file.hpp"
 
@@ -78,38 +80,69 @@ void stop_unless_closable(const Communicator& communicator, const std::string& p
   MPI_Abort(communicator.handle(), unwritable_output_exit_code);
 }
 
-void write_values(const Communicator& communicator, const std::string& path, const DurableHdf5& plan) {
+/// Consecutive rows of a dataset as they were written.
+struct WrittenRows {
+  const DatasetRows* dataset;
+  std::int64_t first_row, row_count;
+  Digest digest;  ///< of their bytes
+};
+
+/// Part by part, as all of the values at once would be as much memory as the columns themselves.
+std::vector<WrittenRows> write_parts(const Communicator& communicator, const Hdf5File& file,
+                                     std::span<const DatasetRows> datasets) {
+  std::vector<Hdf5Dataset> opened;
+  collectively<CollectiveError>(communicator, [&] {
+    for (const DatasetRows& data : datasets) opened.push_back(file.open_dataset(data.path, data.type));
+  });
+  int part_count = 0;
+  for (const DatasetRows& data : datasets) part_count = std::max(part_count, data.part_count);
+  std::vector<WrittenRows> written;
+  std::vector<std::byte> bytes;
+  for (int part = 0; part < part_count; ++part)
+    for (std::size_t k = 0; k < datasets.size(); ++k) {
+      const DatasetRows& data = datasets[k];
+      if (part >= data.part_count) continue;
+      const std::int64_t first_row = data.take_part(part, bytes);
+      const auto row_count = static_cast<std::int64_t>(bytes.size() / data.row_bytes());
+      written.push_back({&data, first_row, row_count, digest_of(bytes)});
+      collectively<CollectiveError>(communicator,
+                                    [&] { opened[k].write_rows_collectively(first_row, row_count, bytes.data()); });
+    }
+  return written;
+}
+
+std::vector<WrittenRows> write_values(const Communicator& communicator, const std::string& path,
+                                      const DurableHdf5& plan) {
   std::optional<Hdf5File> file;
   // Where only some of the ranks can open the file, Open MPI hangs.
   collectively<CollectiveError>(communicator, [&] { FileDescriptor(path, O_RDWR).close(); });
   collectively<CollectiveError>(communicator, [&] { file.emplace(Hdf5File::open_collectively(communicator, path)); });
+  std::vector<WrittenRows> written;
   try {
-    for (const DatasetRows& data : plan.datasets) {
-      std::optional<Hdf5Dataset> dataset;
-      collectively<CollectiveError>(communicator, [&] { dataset.emplace(file->open_dataset(data.path, data.type)); });
-      collectively<CollectiveError>(
-          communicator, [&] { dataset->write_rows_collectively(data.first_row, data.row_count(), data.bytes.data()); });
-    }
+    written = write_parts(communicator, *file, plan.datasets);
   } catch (const CollectiveError& error) {
     stop_unless_closable(communicator, path, plan.user_block, error.what());
     throw;
   }
   stop_unless_closable(communicator, path, plan.user_block, "");
   file->close();
+  return written;
 }
 
-/// Collective MPI-IO on a full or broken disk may report success; what the file holds is what counts.
-void compare_with_file(const std::string& path, std::span<const DatasetRows> datasets) {
+/// Collective MPI-IO on a full or broken disk may report success; what the file holds is what counts. What was written
+/// is known by its digests: two of 128 bits are not the same by chance.
+void compare_with_file(const std::string& path, std::span<const WrittenRows> written) {
   const Hdf5File file = Hdf5File::open_to_read(path);
   std::vector<std::byte> bytes;
-  for (const DatasetRows& data : datasets) {
+  for (const WrittenRows& rows : written) {
+    const DatasetRows& data = *rows.dataset;
     const Hdf5Dataset dataset = file.open_dataset(data.path, data.type);
     if (dataset.rows() != data.total_rows || dataset.components() != data.components) {
       throw Hdf5Error(fmt::format("{}:{} has the wrong shape when read back", path, data.path));
     }
-    bytes.resize(data.bytes.size());
-    dataset.read_rows(data.first_row, data.row_count(), bytes.data());
-    if (bytes != data.bytes) {
+    bytes.resize(static_cast<std::size_t>(rows.row_count) * data.row_bytes());
+    dataset.read_rows(rows.first_row, rows.row_count, bytes.data());
+    if (digest_of(bytes) != rows.digest) {
       throw Hdf5Error(fmt::format("{}:{} does not hold what was written (full or faulty disk?)", path, data.path));
     }
   }
@@ -129,7 +162,7 @@ void write_hdf5_durably(const Communicator& communicator, const std::filesystem:
     collectively<CollectiveError>(communicator, [&] {
       if (is_root) prepare_file(part, plan);
     });
-    write_values(communicator, part, plan);
+    const std::vector<WrittenRows> written = write_values(communicator, part, plan);
     if (plan.seal) plan.seal(part);
     collectively<CollectiveError>(communicator, [&] {
       if (!is_root) return;
@@ -137,7 +170,7 @@ void write_hdf5_durably(const Communicator& communicator, const std::filesystem:
       synchronise_file(part);
     });
     if (plan.verify) plan.verify(part);
-    collectively<CollectiveError>(communicator, [&] { compare_with_file(part, plan.datasets); });
+    collectively<CollectiveError>(communicator, [&] { compare_with_file(part, written); });
     collectively<CollectiveError>(communicator, [&] {
       if (is_root) rename_durably(part, path);
     });

@@ -16,7 +16,7 @@
 
 namespace sphdrop {
 
-/// A dataset of shape [total_rows] or [total_rows, components] and this rank's consecutive rows of it.
+/// A dataset of shape [total_rows] or [total_rows, components], of which every rank writes consecutive rows, in parts.
 struct DatasetRows {
   std::string path;
   std::string unit;
@@ -24,11 +24,12 @@ struct DatasetRows {
   Hdf5Type type = Hdf5Type::float64;
   std::int64_t total_rows = 0;
   int components = 1;
-  std::int64_t first_row = 0;
-  std::vector<std::byte> bytes;
+  int part_count = 1;  ///< the same on every rank
+  /// Collective. Makes `bytes` this rank's rows of a part and returns the first one's number. Called once for each
+  /// part, ascending, on all ranks alike. Whatever it throws, it throws CollectiveError on all ranks.
+  std::function<std::int64_t(int part, std::vector<std::byte>& bytes)> take_part;
 
   std::size_t row_bytes() const { return size_in_bytes(type) * static_cast<std::size_t>(components); }
-  std::int64_t row_count() const { return static_cast<std::int64_t>(bytes.size() / row_bytes()); }
   std::int64_t total_bytes() const { return total_rows * static_cast<std::int64_t>(row_bytes()); }
 };
 
@@ -41,7 +42,9 @@ struct DurableHdf5 {
   std::function<void(Hdf5File&)> write_structure;
   /// Of the values that write_structure writes.
   std::int64_t structure_bytes = 0;
-  /// Created behind the structure, with attributes `unit` and `description`.
+  /// Created behind the structure, with attributes `unit` and `description`. Values are written part by part: the first
+  /// part of all of them, then the second of those that have one, and so on. No more than a part of one is held at a
+  /// time.
   std::span<const DatasetRows> datasets;
   /// Bytes before HDF5's own: 0, 512, 1024, 2048, ...
   std::int64_t user_block = 0;

@@ -30,27 +30,26 @@ void write_structure(Hdf5File& file, const SnapshotHeader& header) {
 }  // namespace
 
 SnapshotColumn SnapshotColumn::scalar(std::string name, std::string unit, std::string description,
-                                      std::span<const double> values) {
-  return {std::move(name), std::move(unit), std::move(description), {values}, {}};
+                                      Pieces<double> values) {
+  return {std::move(name), std::move(unit), std::move(description), {std::move(values)}, {}};
 }
 
-SnapshotColumn SnapshotColumn::vector(std::string name, std::string unit, std::string description,
-                                      std::span<const double> x, std::span<const double> y) {
-  return {std::move(name), std::move(unit), std::move(description), {x, y}, {}};
+SnapshotColumn SnapshotColumn::vector(std::string name, std::string unit, std::string description, Pieces<double> x,
+                                      Pieces<double> y) {
+  return {std::move(name), std::move(unit), std::move(description), {std::move(x), std::move(y)}, {}};
 }
 
-SnapshotColumn SnapshotColumn::integer(std::string name, std::string description,
-                                       std::span<const std::int64_t> values) {
-  return {std::move(name), "1", std::move(description), {}, values};
+SnapshotColumn SnapshotColumn::integer(std::string name, std::string description, Pieces<std::int64_t> values) {
+  return {std::move(name), "1", std::move(description), {}, std::move(values)};
 }
 
 void write_snapshot(const Communicator& communicator, const std::filesystem::path& path, const SnapshotHeader& header,
                     const SnapshotRows& rows, std::span<const SnapshotColumn> columns) {
   try {
-    const std::vector<DatasetRows> datasets = lay_out_snapshot(communicator, header, rows, columns);
+    SnapshotLayout layout(communicator, header, rows, columns);
     DurableHdf5 plan;
     plan.write_structure = [&](Hdf5File& file) { write_structure(file, header); };
-    plan.datasets = datasets;
+    plan.datasets = layout.datasets();
     write_hdf5_durably(communicator, path, plan);
   } catch (const CollectiveError& error) {
     throw SnapshotError(fmt::format("the snapshot {} could not be written: {}", path.string(), error.what()));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "decomposition/communicator.hpp"
+#include "io/pieces.hpp"
 
 namespace sphdrop {
 
@@ -27,11 +28,12 @@ struct SnapshotHeader {
   std::string version;           ///< of the program
 };
 
-/// This rank's rows: shapes [n]. The ids of all ranks together are 0 ... total - 1, in any order, once each.
+/// This rank's rows: shapes [n], where they lie. The ids of all ranks together are 0 ... total - 1, in any order, once
+/// each.
 struct SnapshotRows {
   std::int64_t total = 0;
-  std::span<const std::int64_t> ids;
-  std::span<const double> x, y;  ///< positions, m
+  Pieces<std::int64_t> ids;
+  Pieces<double> x, y;  ///< positions, m
 };
 
 /// A named quantity of the rows, in the order of SnapshotRows::ids.
@@ -39,22 +41,21 @@ struct SnapshotColumn {
   std::string name;  ///< letters, digits and underscores; not "id", which the snapshot writes itself
   std::string unit;  ///< SI; "1" without dimension
   std::string description;
-  /// One span a component, shape [n] each. Two components are filed with a third that is zero, as VTK wants vectors.
-  std::vector<std::span<const double>> components;
+  /// One a component, shape [n] each. Two components are filed with a third that is zero, as VTK wants vectors.
+  std::vector<Pieces<double>> components;
   /// Instead of components: integers, shape [n].
-  std::span<const std::int64_t> integers;
+  Pieces<std::int64_t> integers;
 
-  static SnapshotColumn scalar(std::string name, std::string unit, std::string description,
-                               std::span<const double> values);
-  static SnapshotColumn vector(std::string name, std::string unit, std::string description, std::span<const double> x,
-                               std::span<const double> y);
-  static SnapshotColumn integer(std::string name, std::string description, std::span<const std::int64_t> values);
+  static SnapshotColumn scalar(std::string name, std::string unit, std::string description, Pieces<double> values);
+  static SnapshotColumn vector(std::string name, std::string unit, std::string description, Pieces<double> x,
+                               Pieces<double> y);
+  static SnapshotColumn integer(std::string name, std::string description, Pieces<std::int64_t> values);
 };
 
 /// Collective. Writes `path` in ascending order of ids; the bytes do not depend on the number of ranks or on who owns
 /// what. The file is written aside as `path`.part on space reserved beforehand, flushed to the disk, read back and
 /// compared, and only then renamed, so that `path` is whole or as it was. Throws SnapshotError on all ranks; ends the
-/// program if HDF5 cannot even close the file (see Hdf5File::close).
+/// program if HDF5 cannot even close the file (see Hdf5File::close). Takes a few bytes a row beside the columns.
 void write_snapshot(const Communicator& communicator, const std::filesystem::path& path, const SnapshotHeader& header,
                     const SnapshotRows& rows, std::span<const SnapshotColumn> columns);
 

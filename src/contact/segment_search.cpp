@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "contact/foot_point.hpp"
 
@@ -35,11 +36,22 @@ void SegmentSearch::rebuild(std::span<const double> point_x, std::span<const dou
   candidates_.clear();
   candidate_starts_.assign(1, 0);
 
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vector low{infinity, infinity}, high{-infinity, -infinity};  // of the points
+  for (std::size_t i = 0; i < point_x.size(); ++i) {
+    if (!std::isfinite(point_x[i] + point_y[i])) continue;
+    low = {std::min(low.x, point_x[i]), std::min(low.y, point_y[i])};
+    high = {std::max(high.x, point_x[i]), std::max(high.y, point_y[i])};
+  }
   const double cell_size = contact_cell_size(surface, reach);
   for (std::size_t k = 0; k < surface.segments.size(); ++k) {
     const Vector a = surface.vertex(surface.segments[k].first);
     const Vector b = surface.vertex(surface.segments[k].second);
     if (!std::isfinite(a.x + a.y + b.x + b.y)) continue;
+    // Most of a long boundary is far from every point.
+    if (std::max(a.x, b.x) + reach < low.x || std::min(a.x, b.x) - reach > high.x ||
+        std::max(a.y, b.y) + reach < low.y || std::min(a.y, b.y) - reach > high.y)
+      continue;
     const auto last_column = cell_index(std::max(a.x, b.x) + reach, cell_size);
     const auto last_row = cell_index(std::max(a.y, b.y) + reach, cell_size);
     for (auto column = cell_index(std::min(a.x, b.x) - reach, cell_size); column <= last_column; ++column)

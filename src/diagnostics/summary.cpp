@@ -160,6 +160,9 @@ void write_time(Text& text, const RunSummary& summary) {
                            summary.particles, steps, summary.ranks, summary.ranks == 1 ? "" : "s"));
   if (!summary.instructions.empty()) text.entry("compiled for", summary.instructions);
   text.entry("load, largest / mean", fmt::format("{:.3f}", summary.load_imbalance));
+  if (summary.ranks > 1)
+    text.entry("work, largest / mean", fmt::format("{:.3f} by the last of {} partition{}", summary.partition_imbalance,
+                                                   summary.repartitions, summary.repartitions == 1 ? "" : "s"));
   if (summary.peak_memory > 0.0)
     text.entry("memory, most of a rank", fmt::format("{:.1f} MB", 1e-6 * summary.peak_memory));
 }

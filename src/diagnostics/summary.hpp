@@ -89,6 +89,8 @@ struct RunSummary {
   int ranks = 1;
   std::string instructions;          ///< what the sweeps are compiled for; empty: unsaid
   double load_imbalance = 1;         ///< the busiest rank's computing time over the mean
+  double partition_imbalance = 1;    ///< the largest share of the work over the mean, by the partition's weights
+  std::int64_t repartitions = 0;     ///< how often the particles have been dealt out anew
   std::vector<RankTraffic> traffic;  ///< of what happened; shown where there are several ranks
   double peak_memory = 0;            ///< of the rank with the most, bytes; 0: unknown
   std::uint64_t state_hash = 0;

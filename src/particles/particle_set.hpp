@@ -39,7 +39,7 @@ class Field {
   Field(const Field&) = delete;
   Field& operator=(const Field&) = delete;
 
-  /// Gives up the rows: for a derived quantity that the case at hand has no use for.
+  /// Gives up the rows: for a quantity that the case at hand has no use for. One that is state is 0 in files.
   void leave_out() {
     is_left_out_ = true;
     for (Column<double>& column : columns) column.resize(0);
@@ -138,11 +138,11 @@ class ParticleSet {
         field->columns[static_cast<std::size_t>(c)].resize(rows);
   }
 
-  /// The columns of all fields that have one of the roles, in the order of declaration.
+  /// The columns of all fields that have one of the roles and are not left out, in the order of declaration.
   std::vector<Column<double>*> columns_with(Role role) const {
     std::vector<Column<double>*> found;
     for (Field* field : fields_)
-      if (has(field->roles, role))
+      if (has(field->roles, role) && !field->is_left_out())
         for (int c = 0; c < field->components; ++c) found.push_back(&field->columns[static_cast<std::size_t>(c)]);
     return found;
   }

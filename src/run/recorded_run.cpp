@@ -113,6 +113,7 @@ RunSummary RecordedRun::finish() {
   if (summary.drop && summary.drop->largest_mach_number)
     record_->set("largest_mach_number", summary.drop->largest_mach_number->value);
   record_->set("load_imbalance", summary.load_imbalance);
+  record_->set("partition_imbalance", summary.partition_imbalance);
   for (const PhaseTime& phase : summary.phases) record_->set("seconds in " + phase.name, phase.seconds);
   for (const RankTraffic& traffic : summary.traffic) {
     if (traffic.occasion != "step") record_->set(traffic.occasion + "s", traffic.times);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "simulation/particle_transport.hpp"
@@ -11,24 +12,26 @@ namespace sphdrop {
 
 namespace {
 
-// What a particle costs in a step, relative to others: the solid's pair sums are about half as long again as the
-// liquid's, and a rigid drop's particles have none.
+// What a particle costs in a step, relative to others, by measured times (tests/benchmarks/README.md): a rigid drop's
+// particles have no pair sums. They are numbers of the program, not of the run: times of a run would follow whatever
+// else its machine does.
 struct Loads {
   std::int32_t drop, solid;
 };
-constexpr Loads loads_with_liquid{2, 3}, loads_with_rigid_drop{1, 20};
+constexpr Loads loads_with_liquid{21, 20}, loads_with_rigid_drop{1, 20};
 // Cells are far cheaper.
 constexpr Loads cells_with_liquid{8, 1}, cells_with_rigid_drop{1, 2};
 
 }  // namespace
 
 Distribution::Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
-                           bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach)
+                           bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach, double surface_work)
     : communicator_(communicator),
       range_(range),
       drop_is_rigid_(drop_is_rigid),
       solid_is_total_lagrangian_(solid_is_total_lagrangian),
       solid_reach_(solid_reach),
+      surface_work_(surface_work),
       partition_(communicator, range.list_reach(), imbalance_threshold) {}
 
 bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bool force) {
@@ -45,10 +48,23 @@ bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
                                                  : (drop_is_rigid_ ? loads_with_rigid_drop : loads_with_liquid);
   collect(fluid, fluid.position, loads.drop);
   collect(solid, solid_is_total_lagrangian_ ? solid.reference_position : solid.position, loads.solid);
-  partition_.update(x, y, load, force);
+  const std::size_t particles = x.size();
+  if (surface_work_ > 0 && communicator_.size() > 1) {
+    const Seat seat = find_seat(fluid);
+    const std::int32_t work = work_of_owner(load, loads.drop);
+    if (seat.rank == communicator_.rank()) {
+      x.push_back(seat.position.x);
+      y.push_back(seat.position.y);
+      load.push_back(work);
+    }
+    partition_.update(x, y, load, force);
+    surface_owner_ = partition_.owner_of(seat.position.x, seat.position.y);
+  } else {
+    partition_.update(x, y, load, force);
+  }
 
-  std::vector<int> destination(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k) destination[k] = partition_.owner_of(x[k], y[k]);
+  std::vector<int> destination(particles);
+  for (std::size_t k = 0; k < particles; ++k) destination[k] = partition_.owner_of(x[k], y[k]);
   for (auto* places : {&x, &y}) std::vector<double>().swap(*places);
   std::vector<std::int32_t>().swap(load);
   const std::size_t fluid_rows = fluid.owned_count();
@@ -56,15 +72,38 @@ bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
   const std::span<const int> solid_destination = std::span(destination).subspan(fluid_rows);
   const bool solid_changes = solid_changes_ranks(solid_destination);
   if (solid_changes) migrate(communicator_, solid, solid_destination, tags::migration + 1);
-  if (!drop_is_rigid_) make_fluid_ghosts(fluid);
-  std::copy(fluid.position.x.begin(), fluid.position.x.end(), fluid.list_position.x.begin());
-  std::copy(fluid.position.y.begin(), fluid.position.y.end(), fluid.list_position.y.begin());
-  if (solid_changes)
-    make_solid_ghosts(solid);
-  else
-    solid.list_position.take(solid.position);
+  // Ghosts of both before lists of either: a rank without liquid would wait for the other ranks' lists of it.
+  std::int32_t inner_fluid_rows = 0;
+  if (!drop_is_rigid_) inner_fluid_rows = make_fluid_ghosts(fluid);
+  fluid.list_position.take(fluid.position);
+  if (solid_changes) make_solid_ghosts(solid);
+  solid.list_position.take(solid.position);
+  if (!drop_is_rigid_) list_fluid(fluid, inner_fluid_rows);
+  if (solid_changes && !solid_is_total_lagrangian_)
+    solid_ = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, solid_reach_);
   has_distributed_solid_ = true;
   return solid_changes;
+}
+
+// The highest particle is on the surface whatever becomes of the drop. The owner keeps its work unless others are
+// clearly higher: on a flat drop it would go to and fro, and the particles with it.
+Distribution::Seat Distribution::find_seat(const FluidParticles& fluid) const {
+  Seat mine{{0.0, -std::numeric_limits<double>::infinity()}, communicator_.rank()};
+  fluid.for_each_owned([&](std::size_t row) {
+    if (fluid.position.y[row] > mine.position.y) mine.position = fluid.position.at(row);
+  });
+  const std::vector<Seat> all = communicator_.all_gather(std::span<const Seat>(&mine, 1));
+  const auto height = [&](const Seat& seat) {
+    return seat.position.y + (seat.rank == surface_owner_ ? 8.0 * range_.list_reach() : 0.0);
+  };
+  return *std::max_element(all.begin(), all.end(), [&](const Seat& a, const Seat& b) { return height(a) < height(b); });
+}
+
+// Short of a whole share: METIS cannot balance what outweighs one.
+std::int32_t Distribution::work_of_owner(std::span<const std::int32_t> load, std::int32_t load_of_particle) const {
+  const std::int64_t sum = communicator_.sum(std::accumulate(load.begin(), load.end(), std::int64_t{0}));
+  const double most = 0.8 * static_cast<double>(sum) / communicator_.size();
+  return static_cast<std::int32_t>(std::min(surface_work_ * load_of_particle, most));
 }
 
 // One that keeps its neighbours need not move unless the partition does.
@@ -102,9 +141,8 @@ std::int32_t Distribution::sort_fluid(FluidParticles& fluid) const {
                                    keys.begin());
 }
 
-void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
-  const std::size_t owned = fluid.size();
-  // The old lists first: old and new together would be the most memory that a run takes.
+std::int32_t Distribution::make_fluid_ghosts(FluidParticles& fluid) {
+  // The old lists go first: old and new together would be the most memory that a run takes.
   inner_fluid_ = {};
   border_fluid_ = {};
   const std::int32_t inner = sort_fluid(fluid);
@@ -112,19 +150,20 @@ void Distribution::make_fluid_ghosts(FluidParticles& fluid) {
   // The halo of detection reaches the circles that overlap a particle's own, 4h away.
   wide_halo_ =
       halo_plan(communicator_, fluid, fluid.position, partition_, 2.0 * range_.support + range_.skin, tags::wide_halo);
-  const auto end = static_cast<std::int32_t>(owned);
-  inner_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {0, inner}, range_.list_reach());
-  border_fluid_ = SlicedNeighbours::build(fluid, fluid.position.x, fluid.position.y, {inner, end}, range_.list_reach());
+  return inner;
+}
+
+void Distribution::list_fluid(const FluidParticles& fluid, std::int32_t inner_rows) {
+  const auto end = static_cast<std::int32_t>(fluid.owned_count());
+  const VectorField& place = fluid.position;
+  inner_fluid_ = SlicedNeighbours::build(fluid, place.x, place.y, {0, inner_rows}, range_.list_reach());
+  border_fluid_ = SlicedNeighbours::build(fluid, place.x, place.y, {inner_rows, end}, range_.list_reach());
 }
 
 void Distribution::make_solid_ghosts(SolidParticles& solid) {
   VectorField& place = solid_is_total_lagrangian_ ? solid.reference_position : solid.position;
   solid_halo_ = make_halo(communicator_, solid, place, partition_, solid_reach_, tags::solid_halo);
   sort_by_id(solid, solid_halo_);
-  if (!solid_is_total_lagrangian_)
-    solid_ = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, solid_reach_);
-  std::copy(solid.position.x.begin(), solid.position.x.end(), solid.list_position.x.begin());
-  std::copy(solid.position.y.begin(), solid.position.y.end(), solid.list_position.y.begin());
 }
 
 }  // namespace sphdrop

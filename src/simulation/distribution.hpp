@@ -33,9 +33,10 @@ class Distribution {
  public:
   /// The particles of a drop that is rigid have no neighbours and no ghosts. A solid that is total-Lagrangian is dealt
   /// out by its places in the undeformed body: its particles stay where they are while it moves, and its ghosts are
-  /// those within `solid_reach`, m.
+  /// those within `solid_reach`, m. `surface_work`: what the owner of the liquid's surface does besides, in particles;
+  /// 0 if there is no such owner, or if it is chosen by others.
   Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
-               bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach);
+               bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach, double surface_work = 0);
 
   /// Collective. Moves every particle to the rank that owns its place (repartitioning if the loads ask for it, or
   /// `force`), makes ghosts of what other ranks hold within reach, and lists the neighbours. Needs the state columns of
@@ -56,20 +57,32 @@ class Distribution {
   const OffsetNeighbours& solid() const { return solid_; }
   const InteractionRange& range() const { return range_; }
   const PartitionQuality& quality() const { return partition_.quality(); }
+  /// The rank whose share of particles is smaller by the surface's work; -1 if there is none.
+  int surface_owner() const { return surface_owner_; }
 
  private:
+  /// Where the surface's work is counted, and by whom.
+  struct Seat {
+    Vector position;
+    int rank;
+  };
+  Seat find_seat(const FluidParticles& fluid) const;
+  std::int32_t work_of_owner(std::span<const std::int32_t> load, std::int32_t load_of_particle) const;
   bool solid_changes_ranks(std::span<const int> destination) const;
   /// Rows near other ranks last; within the two groups by cell, so that neighbours are near in memory. Returns how many
   /// are not near others.
   std::int32_t sort_fluid(FluidParticles& fluid) const;
-  void make_fluid_ghosts(FluidParticles& fluid);
+  /// Returns how many rows need no ghosts.
+  std::int32_t make_fluid_ghosts(FluidParticles& fluid);
+  void list_fluid(const FluidParticles& fluid, std::int32_t inner_rows);
   void make_solid_ghosts(SolidParticles& solid);
 
   const Communicator& communicator_;
   InteractionRange range_;
   bool drop_is_rigid_, solid_is_total_lagrangian_;
   bool has_distributed_solid_ = false;
-  double solid_reach_;
+  double solid_reach_, surface_work_;
+  int surface_owner_ = -1;
   DomainPartition partition_;
   ExchangePlan fluid_halo_, solid_halo_, wide_halo_;
   SlicedNeighbours inner_fluid_, border_fluid_;

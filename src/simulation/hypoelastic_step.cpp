@@ -1,6 +1,7 @@
 #include "simulation/hypoelastic_step.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "diagnostics/energy.hpp"
 
@@ -20,13 +21,17 @@ void HypoelasticStep::relist(SolidParticles& solid, const Distribution&) {
   for (const RowRange& range : solid.ghosts)
     std::fill(solid.density.data() + range.begin, solid.density.data() + range.end, material_.density);
   sweep_.update_stress(solid, solid.ghosts);
+  predicted_for_.reset();
+}
+
+void HypoelasticStep::predict_rows(SolidParticles& solid, std::span<const RowRange> rows, double previous_step) const {
+  sphdrop::predict(solid, rows, previous_step);
+  sweep_.update_stress(solid, rows);
 }
 
 void HypoelasticStep::predict(SolidParticles& solid, double previous_step) {
-  for_each_run(solid.owned, [&](std::span<const RowRange> rows) {
-    sphdrop::predict(solid, rows, previous_step);
-    sweep_.update_stress(solid, rows);
-  });
+  if (std::exchange(predicted_for_, std::nullopt) == previous_step) return;
+  for_each_run(solid.owned, [&](std::span<const RowRange> rows) { predict_rows(solid, rows, previous_step); });
 }
 
 void HypoelasticStep::sweep_inner(SolidParticles& solid, const Distribution& distribution) {
@@ -39,7 +44,10 @@ void HypoelasticStep::sweep_rest(SolidParticles& solid, const Distribution& dist
 }
 
 MotionMaxima HypoelasticStep::move(SolidParticles& solid, StepLengths steps, double speed_limit) {
-  return kick_and_drift(solid, steps, speed_limit);
+  // What the next step predicts follows from what is in the cache here, and nothing comes between but other rows.
+  predicted_for_ = steps.next;
+  return kick_and_drift(solid, steps, speed_limit,
+                        [&](std::span<const RowRange> rows) { predict_rows(solid, rows, steps.next); });
 }
 
 void HypoelasticStep::add_elastic_energy(const SolidParticles& s, ExactSum& sum) const {

@@ -1,6 +1,9 @@
 #pragma once
 // The hypoelastic solid in a step (Sec. 2.2).
 
+#include <optional>
+#include <span>
+
 #include "simulation/solid_step.hpp"
 #include "solid/hypoelastic/hypoelastic_sweep.hpp"
 
@@ -21,9 +24,12 @@ class HypoelasticStep : public SolidStep {
   void add_elastic_energy(const SolidParticles& solid, ExactSum& sum) const override;
 
  private:
+  void predict_rows(SolidParticles& solid, std::span<const RowRange> rows, double previous_step) const;
+
   HypoelasticSweep sweep_;
   ElasticMaterial material_;
   bool is_plane_strain_;
+  std::optional<double> predicted_for_;  ///< length of the previous step, s: the owned rows are predicted already
 };
 
 }  // namespace sphdrop

@@ -18,11 +18,15 @@ bool Simulation::has_density_diffusion() const {
          case_.fluid.density_diffusion > 0;
 }
 
+bool Simulation::density_correction_is_due() const {
+  const std::int64_t interval = case_.fluid.density_correction_interval;
+  return case_.fluid.density_treatment == DensityTreatment::moving_least_squares && interval > 0 && step_ > 0 &&
+         step_ % interval == 0;
+}
+
 void Simulation::predict_liquid() {
   if (gauge_.is_enabled()) gauge_.relax(fluid_, steps_.previous);
-  const std::int64_t interval = case_.fluid.density_correction_interval;
-  const bool is_corrected = case_.fluid.density_treatment == DensityTreatment::moving_least_squares && interval > 0 &&
-                            step_ > 0 && step_ % interval == 0;
+  const bool is_corrected = density_correction_is_due();
   const auto make_ready = [&](std::span<const RowRange> rows) {
     set_liquid_pressure(rows);
     fluid_sweep_.pack(fluid_, rows, gauge_.pressure());
@@ -117,9 +121,10 @@ void Simulation::damp_resting_drop() {
 void Simulation::start_drop() {
   fluid_.for_each_owned([&](std::size_t row) {
     fluid_.staggered_velocity.set(row, drop_velocity(case_, fluid_.position.at(row) - drop_centre_));
-    fluid_.dissipated_energy[row] = fluid_.correction_energy[row] = fluid_.shift_energy[row] = 0.0;
-    fluid_.gauge_energy[row] = 0.0;
   });
+  for (ScalarField* energy :
+       {&fluid_.dissipated_energy, &fluid_.correction_energy, &fluid_.shift_energy, &fluid_.gauge_energy})
+    std::fill(energy->columns[0].begin(), energy->columns[0].end(), 0.0);
   surface_tension_.start_ledger();
   gauge_.start_ledger();
   shifting_.start_ledger();

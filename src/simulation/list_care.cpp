@@ -34,6 +34,7 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
     return;
   }
   const bool solid_has_changed = distribution_.redistribute(fluid_, solid_, forced);
+  solid_is_predicted_ = liquid_is_predicted_ = false;
   check_nothing_is_lost();
   corrected_density_.resize(fluid_.size() + column_padding);
   fluid_sweep_.resize(fluid_);
@@ -43,7 +44,7 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
   }
   contact_displacements_.reset();
   contact_.regather(fluid_, solid_, parameters_.range);
-  if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_, contact_);
+  if (surface_tension_.is_enabled() && is_distributed_) surface_tension_.regather(fluid_, contact_, distribution_);
   if (surface_tension_.is_enabled() && !is_distributed_) surface_tension_.recover(fluid_, distribution_, contact_);
   is_distributed_ = true;
   ++redistributions_;
@@ -57,7 +58,7 @@ BoxesWanted Simulation::boxes_wanted() const {
 void Simulation::regather_contact() {
   contact_.regather(fluid_, solid_, parameters_.range);
   // Who attracts the drop is numbered anew, and perhaps has another owner.
-  if (surface_tension_.is_enabled() && case_.is_wetting()) surface_tension_.regather(fluid_, contact_);
+  if (surface_tension_.is_enabled() && case_.is_wetting()) surface_tension_.regather(fluid_, contact_, distribution_);
 }
 
 }  // namespace sphdrop

@@ -69,8 +69,8 @@ void add_fluid(const Simulation& simulation, Sums& sums) {
     sums[fluid_compressive].add(m * compressive_energy_per_mass(f.density[row], rest_density, c.fluid.sound_speed));
     sums[fluid_heat].add(f.dissipated_energy[row]);
     sums[fluid_correction].add(f.correction_energy[row]);
-    sums[fluid_shift].add(f.shift_energy[row]);
-    sums[fluid_gauge].add(f.gauge_energy[row]);
+    if (!f.shift_energy.is_left_out()) sums[fluid_shift].add(f.shift_energy[row]);
+    if (!f.gauge_energy.is_left_out()) sums[fluid_gauge].add(f.gauge_energy[row]);
   });
 }
 

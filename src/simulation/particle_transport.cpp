@@ -79,7 +79,7 @@ void reorder(ParticleSet& particles, std::span<const std::int32_t> order) {
   std::copy(ids.begin(), ids.end(), particles.id.begin());
   std::vector<double> scratch;
   for (Field* field : particles.fields())
-    if (has(field->roles, Role::state) || has(field->roles, Role::constant))
+    if ((has(field->roles, Role::state) || has(field->roles, Role::constant)) && !field->is_left_out())
       for (int c = 0; c < field->components; ++c) permute(field->columns[static_cast<std::size_t>(c)], order, scratch);
 }
 

@@ -350,6 +350,8 @@ RunSummary Recorder::summary() const {
       mean += all[static_cast<std::size_t>(rank) * seconds.size() + k];
     r.phases.push_back({std::string(phase_names[k]), mean / communicator.size()});
   }
+  r.partition_imbalance = simulation_.distribution().quality().imbalance;
+  r.repartitions = simulation_.distribution().quality().repartitions;
   r.traffic = traffic_of_ranks(simulation_, r.steps - r.first_step + 1);
   r.peak_memory = communicator.max(peak_memory());
   r.particles = simulation_.fluid_total() + simulation_.solid_total();

@@ -10,7 +10,7 @@
 
 namespace sphdrop {
 
-/// A copy of the state between two steps.
+/// The state between two steps; of the particles not a copy, so that it is to be used before they move.
 struct SavedSimulation {
   StoredParticles fluid, solid;
   std::vector<CheckpointNumbers> numbers;  ///< the same on every rank

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "simulation/particle_transport.hpp"
+#include "simulation/surface_work.hpp"
 #include "solid/mass_proportional_damping.hpp"
 
 namespace sphdrop {
@@ -64,7 +65,8 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
                                   static_cast<std::int64_t>(initial_fluid.positions.size()))),
       distribution_(communicator, parameters_.range, input.parallel.imbalance_threshold, input.drop.is_rigid(),
                     solid_step_->is_total_lagrangian(),
-                    solid_step_->is_total_lagrangian() ? solid_step_->reach() : parameters_.range.list_reach()),
+                    solid_step_->is_total_lagrangian() ? solid_step_->reach() : parameters_.range.list_reach(),
+                    surface_work(input, initial_fluid.positions.size())),
       fluid_sweep_(parameters_.fluid_pair),
       gauge_(communicator, input, initial_fluid.masses),
       shifting_(input, parameters_.kernel),
@@ -85,7 +87,12 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
     fluid_.density_gradient.leave_out();
     fluid_.density_diffusion.leave_out();
   }
-  if (!shifting_.is_enabled()) fluid_.surface_orientation.leave_out();
+  if (!shifting_.is_enabled()) {
+    fluid_.surface_orientation.leave_out();
+    fluid_.shift_energy.leave_out();
+  }
+  if (!gauge_.is_enabled()) fluid_.gauge_energy.leave_out();
+  if (!rigid_body_.is_enabled()) fluid_.body_offset.leave_out();
   solid_ghosted_ = solid_step_->ghosted(solid_);
   correction_ghosted_ = {&fluid_.position.x, &fluid_.position.y, &fluid_.density.columns[0]};
   take_initial_state(initial_fluid, initial_solid);
@@ -238,12 +245,7 @@ void Simulation::evaluate() {
   redistribute_if_due(maxima[squared_displacement], maxima[squared_solid_displacement],
                       box_at(maxima.subspan(displacements, 4)));
 
-  solid_step_->predict(solid_, steps_.previous);
-  if (rigid_body_.is_enabled())
-    rigid_body_.predict(fluid_, steps_.previous);
-  else
-    predict_liquid();
-  timer_.lap(Phase::update);
+  predict_what_is_left();
 
   start_exchange(distribution_.fluid_halo(), fluid_ghosted_);
   start_exchange(distribution_.solid_halo(), solid_ghosted_);
@@ -314,6 +316,26 @@ void Simulation::move(double request) {
     fluid = motion_maxima(fluid_, limit, boxes_wanted());
   }
   post_maxima(fluid, solid, request);
+  predict_ahead();
+  timer_.lap(Phase::update);
+}
+
+// While the reduction is under way, what needs nothing of other ranks and nothing of the reduction.
+void Simulation::predict_ahead() {
+  solid_step_->predict(solid_, steps_.previous);
+  solid_is_predicted_ = true;
+  if (rigid_body_.is_enabled() || gauge_.is_enabled() || has_density_diffusion() || density_correction_is_due()) return;
+  predict_liquid();
+  liquid_is_predicted_ = true;
+}
+
+void Simulation::predict_what_is_left() {
+  if (!std::exchange(solid_is_predicted_, false)) solid_step_->predict(solid_, steps_.previous);
+  const bool liquid_is_left = !std::exchange(liquid_is_predicted_, false);
+  if (rigid_body_.is_enabled())
+    rigid_body_.predict(fluid_, steps_.previous);
+  else if (liquid_is_left)
+    predict_liquid();
   timer_.lap(Phase::update);
 }
 

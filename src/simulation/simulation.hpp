@@ -112,8 +112,11 @@ class Simulation {
                            const DisplacementBox& displacements);
   BoxesWanted boxes_wanted() const;
   void regather_contact();
+  void predict_ahead();
+  void predict_what_is_left();
   /// Velocity, density and pressure at the present instant, ready for the sweep.
   void predict_liquid();
+  bool density_correction_is_due() const;
   void set_liquid_pressure(std::span<const RowRange> rows);
   void exchange_densities();
   void correct_density();
@@ -174,6 +177,8 @@ class Simulation {
   std::optional<DisplacementBox> contact_displacements_;  // of the liquid, if contact was gathered anew since the lists
   bool wants_displacements_ = false;                      // the drop may move as a whole
   bool is_distributed_ = false;
+  // At the present instant: by move(), and not lost with a new distribution since.
+  bool solid_is_predicted_ = false, liquid_is_predicted_ = false;
   bool detection_is_due_ = true;
   std::int64_t redistributions_ = 0, detections_ = 0;
   PhaseTimer timer_;

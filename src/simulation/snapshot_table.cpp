@@ -1,55 +1,55 @@
 #include "simulation/snapshot_table.hpp"
 
-#include <algorithm>
+#include <string_view>
+
+#include "simulation/owned_pieces.hpp"
 
 namespace sphdrop {
 
 namespace {
 
-std::vector<double> owned_values(const ParticleSet& particles, const Column<double>& column) {
-  std::vector<double> values;
-  values.reserve(particles.owned_count());
-  particles.for_each_owned([&](std::size_t row) { values.push_back(column[row]); });
-  return values;
-}
-
-void append(std::vector<double>& to, const std::vector<double>& from) {
-  to.insert(to.end(), from.begin(), from.end());
+/// Of a quantity that may be of one material only.
+const Field* written_field(const ParticleSet& particles, std::string_view name) {
+  for (const Field* field : particles.fields())
+    if (has(field->roles, Role::written) && field->name == name) return field;
+  return nullptr;
 }
 
 }  // namespace
 
 SnapshotTable::SnapshotTable(const FluidParticles& fluid, const SolidParticles& solid) {
-  const std::size_t liquid_rows = fluid.owned_count(), all_rows = liquid_rows + solid.owned_count();
-  fluid.for_each_owned([&](std::size_t row) { ids_.push_back(fluid.id[row]); });
-  solid.for_each_owned([&](std::size_t row) { ids_.push_back(solid.id[row]); });
-  material_.assign(liquid_rows, 0);
-  material_.resize(all_rows, 1);
-  x_ = owned_values(fluid, fluid.position.x);
-  y_ = owned_values(fluid, fluid.position.y);
-  append(x_, owned_values(solid, solid.position.x));
-  append(y_, owned_values(solid, solid.position.y));
+  const std::size_t liquid_rows = fluid.owned_count(), solid_rows = solid.owned_count();
+  add_owned(ids_, fluid, fluid.id);
+  add_owned(ids_, solid, solid.id);
+  material_.add_constant(0, liquid_rows);
+  material_.add_constant(1, solid_rows);
+  add_owned(x_, fluid, fluid.position.x);
+  add_owned(x_, solid, solid.position.x);
+  add_owned(y_, fluid, fluid.position.y);
+  add_owned(y_, solid, solid.position.y);
 
-  const auto take = [&](const ParticleSet& particles, std::size_t first_row, const char* absent_note) {
-    for (const Field* field : particles.fields()) {
-      if (!has(field->roles, Role::written) || field->name == "position") continue;
-      auto found = std::find_if(quantities_.begin(), quantities_.end(),
-                                [&](const Quantity& quantity) { return quantity.name == field->name; });
-      if (found == quantities_.end()) {
-        quantities_.push_back({std::string(field->name), std::string(field->unit),
-                               std::string(field->description) + absent_note,
-                               std::vector<std::vector<double>>(static_cast<std::size_t>(field->components),
-                                                                std::vector<double>(all_rows, 0.0))});
-        found = quantities_.end() - 1;
-      }
-      for (std::size_t c = 0; c < found->components.size(); ++c) {
-        const std::vector<double> values = owned_values(particles, field->columns[c]);
-        std::copy(values.begin(), values.end(), found->components[c].begin() + static_cast<std::ptrdiff_t>(first_row));
-      }
+  const auto take = [&](const Field& described, const Field* of_liquid, const Field* of_solid) {
+    Quantity& quantity = quantities_.emplace_back();
+    quantity.name = described.name;
+    quantity.unit = described.unit;
+    quantity.description = std::string(described.description) + (of_liquid == nullptr ? "; 0 in the liquid" : "");
+    for (int c = 0; c < described.components; ++c) {
+      Pieces<double>& component = quantity.components.emplace_back();
+      const auto add_part = [&](const ParticleSet& particles, const Field* field, std::size_t rows) {
+        if (field == nullptr)
+          component.add_constant(0.0, rows);
+        else
+          add_owned(component, particles, *field, c);
+      };
+      add_part(fluid, of_liquid, liquid_rows);
+      add_part(solid, of_solid, solid_rows);
     }
   };
-  take(fluid, 0, "");
-  take(solid, liquid_rows, "; 0 in the liquid");
+  const auto is_taken = [](const Field& field) { return has(field.roles, Role::written) && field.name != "position"; };
+  for (const Field* field : fluid.fields())
+    if (is_taken(*field)) take(*field, field, written_field(solid, field->name));
+  for (const Field* field : solid.fields())
+    if (is_taken(*field) && written_field(fluid, field->name) == nullptr) take(*field, nullptr, field);
 }
 
 SnapshotRows SnapshotTable::rows(std::int64_t total) const {

@@ -11,22 +11,23 @@
 namespace sphdrop {
 
 /// This rank's owned particles, liquid first, with every quantity that has the role `written` in either material, and
-/// the column `material`. A quantity that one of the materials does not have is 0 there.
+/// the column `material`, where they lie: to be used before the particles move. A quantity that one of the materials
+/// does not have is 0 there.
 class SnapshotTable {
  public:
   SnapshotTable(const FluidParticles& fluid, const SolidParticles& solid);
 
-  /// Both refer to this table. `total`: particles on all ranks.
+  /// `total`: particles on all ranks.
   SnapshotRows rows(std::int64_t total) const;
   std::vector<SnapshotColumn> columns() const;
 
  private:
   struct Quantity {
     std::string name, unit, description;
-    std::vector<std::vector<double>> components;
+    std::vector<Pieces<double>> components;
   };
-  std::vector<std::int64_t> ids_, material_;
-  std::vector<double> x_, y_;
+  Pieces<std::int64_t> ids_, material_;
+  Pieces<double> x_, y_;
   std::vector<Quantity> quantities_;
 };
 

@@ -47,7 +47,7 @@ void SurfaceTensionStep::detect(FluidParticles& fluid, const SolidParticles& sol
   }
   fluid.for_each_owned([&](std::size_t row) { fluid.detection_position.set(row, fluid.position.at(row)); });
   find_arcs(fluid, distribution);
-  regather(fluid, contact);
+  regather(fluid, contact, distribution);
   if (has_curves_) {
     const Extent present = extent_on_all_ranks(contact);
     reconnected_length_ += present.length - old.length;
@@ -66,7 +66,7 @@ bool SurfaceTensionStep::detection_is_due(double squared_displacement, const Dis
 void SurfaceTensionStep::recover(FluidParticles& fluid, Distribution& distribution, const ContactStep& contact) {
   if (!has_curves_) return;
   find_arcs(fluid, distribution);
-  regather(fluid, contact);
+  regather(fluid, contact, distribution);
 }
 
 std::vector<double> SurfaceTensionStep::to_numbers() const {
@@ -210,7 +210,7 @@ void SurfaceTensionStep::orient_along_surface(FluidParticles& fluid) const {
   });
 }
 
-void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& contact) {
+void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& contact, const Distribution& distribution) {
   if (orients_particles_) orient_along_surface(fluid);
   // A surface point is d/2 from its particle and acts as far as 2h. Until the next detection both ends move by its
   // displacement and a step, the point a little more, as it also turns about its particle.
@@ -234,8 +234,8 @@ void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& cont
     band_rows_.push_back(static_cast<std::int32_t>(row));
     ids.push_back(fluid.id[row]);
   });
-  const int owner =
-      is_wetting_ ? contact.owner() : rank_with_most(communicator_, static_cast<std::int64_t>(band_rows_.size()));
+  int owner = is_wetting_ ? contact.owner() : distribution.surface_owner();
+  if (owner < 0) owner = rank_with_most(communicator_, static_cast<std::int64_t>(band_rows_.size()));
   gather_ = InterfaceGather(communicator_, ids, band_rows_, owner, tags::surface);
   returned_x_.assign(band_rows_.size(), 0.0);
   returned_y_.assign(band_rows_.size(), 0.0);

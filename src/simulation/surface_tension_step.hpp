@@ -54,7 +54,7 @@ class SurfaceTensionStep {
   void detect(FluidParticles& fluid, const SolidParticles& solid, Distribution& distribution, ContactStep& contact,
               double gauge_pressure);
   /// Collective. Brings the band along the surface to its owner; after detect() and after every redistribution.
-  void regather(FluidParticles& fluid, const ContactStep& contact);
+  void regather(FluidParticles& fluid, const ContactStep& contact, const Distribution& distribution);
 
   /// Collective. After the first redistribution of a restored run: the curves of the last detection, if there was one.
   void recover(FluidParticles& fluid, Distribution& distribution, const ContactStep& contact);

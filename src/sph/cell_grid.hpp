@@ -46,6 +46,33 @@ class CellGrid {
   /// Calls f(index) for every point in the nine cells about `place`: a superset of those within reach.
   template <class F>
   void for_each_near(Vector place, F&& f) const {
+    for_each_run_near(place, [&](std::span<const std::int32_t> run) {
+      for (const std::int32_t k : run) f(k);
+    });
+  }
+
+  /// Writes the indices of the points nearer to `place` than the root of `squared_reach` (m2, at most the grid's reach)
+  /// to the beginning of `found`, which is made longer where it is too short; returns how many. x, y: those of the
+  /// grid.
+  std::size_t find_within(Vector place, double squared_reach, const double* x, const double* y,
+                          std::vector<std::int32_t>& found) const {
+    std::size_t count = 0;
+    for_each_run_near(place, [&](std::span<const std::int32_t> run) {
+      if (found.size() < count + run.size()) found.resize(count + run.size());
+      // Without a branch: a third of the candidates are near, in no order that a processor could guess.
+      for (const std::int32_t k : run) {
+        const Vector separation = Vector{x[k], y[k]} - place;
+        found[count] = k;
+        count += squared_length(separation) < squared_reach ? 1 : 0;
+      }
+    });
+    return count;
+  }
+
+ private:
+  /// Calls f(indices) for the points of each row of the nine cells about `place`.
+  template <class F>
+  void for_each_run_near(Vector place, F&& f) const {
     if (points_.empty()) return;
     const double cx = std::floor((place.x - origin_.x) * inverse_size_);
     const double cy = std::floor((place.y - origin_.y) * inverse_size_);
@@ -57,11 +84,10 @@ class CellGrid {
     for (std::int64_t r = std::max<std::int64_t>(row - 1, 0); r <= std::min(row + 1, rows_ - 1); ++r) {
       const std::int32_t begin = start_[static_cast<std::size_t>(r * columns_ + first)];
       const std::int32_t end = start_[static_cast<std::size_t>(r * columns_ + last) + 1];
-      for (std::int32_t k = begin; k < end; ++k) f(points_[static_cast<std::size_t>(k)]);
+      f(std::span(points_).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
     }
   }
 
- private:
   std::int64_t cell_of(Vector p) const {
     const auto column = std::min(static_cast<std::int64_t>((p.x - origin_.x) * inverse_size_), columns_ - 1);
     const auto row = std::min(static_cast<std::int64_t>((p.y - origin_.y) * inverse_size_), rows_ - 1);

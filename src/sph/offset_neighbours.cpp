@@ -26,7 +26,9 @@ OffsetNeighbours OffsetNeighbours::build(const ParticleSet& particles, const std
   std::vector<char> is_owned(size, 0);
   particles.for_each_owned([&](std::size_t row) { is_owned[row] = 1; });
 
-  std::vector<std::int32_t> found;
+  std::vector<std::int32_t> near, found;
+  std::vector<char> is_found(2 * size,
+                             0);  // by offset + size: rows of a lattice have nearly all their offsets in common
   for (std::size_t first = 0; first < size; first += block_size) {
     Block block;
     block.first_row = static_cast<std::int32_t>(first);
@@ -37,18 +39,21 @@ OffsetNeighbours OffsetNeighbours::build(const ParticleSet& particles, const std
       if (!wanted[i]) continue;
       any_wanted = true;
       if (!is_owned[i]) block.needs_ghosts = true;
-      const Vector here{x[i], y[i]};
-      grid.for_each_near(here, [&](std::int32_t j) {
-        const auto row = static_cast<std::size_t>(j);
-        if (row == i || squared_length(Vector{x[row], y[row]} - here) >= squared_reach) return;
+      const std::size_t count = grid.find_within({x[i], y[i]}, squared_reach, x.data(), y.data(), near);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto row = static_cast<std::size_t>(near[k]);
+        if (row == i) continue;
         ++list.pairs;
         if (!is_owned[row]) block.needs_ghosts = true;
-        found.push_back(j - static_cast<std::int32_t>(i));
-      });
+        char& known = is_found[size + row - i];
+        if (known == 0) found.push_back(near[k] - static_cast<std::int32_t>(i));
+        known = 1;
+      }
     }
     if (!any_wanted) continue;
+    for (const std::int32_t offset : found)
+      is_found[static_cast<std::size_t>(static_cast<std::int64_t>(size) + offset)] = 0;
     std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
     block.offsets = static_cast<std::int32_t>(found.size());
     list.offsets.insert(list.offsets.end(), found.begin(), found.end());
     list.blocks.push_back(block);

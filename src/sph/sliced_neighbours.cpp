@@ -33,6 +33,7 @@ SlicedNeighbours SlicedNeighbours::build(const ParticleSet& particles, const Col
     std::int32_t row;
   };
   std::array<std::vector<Neighbour>, block_size> found;
+  std::vector<std::int32_t> near;
   for (std::int32_t first = rows.begin; first < rows.end; first += block_size) {
     Slice slice;
     slice.first_row = first;
@@ -42,12 +43,9 @@ SlicedNeighbours SlicedNeighbours::build(const ParticleSet& particles, const Col
       auto& mine = found[static_cast<std::size_t>(lane)];
       mine.clear();
       const auto i = static_cast<std::size_t>(first) + static_cast<std::size_t>(lane);
-      const Vector here{x[i], y[i]};
-      grid.for_each_near(here, [&](std::int32_t j) {
-        const auto row = static_cast<std::size_t>(j);
-        if (row != i && squared_length(Vector{x[row], y[row]} - here) < squared_reach)
-          mine.push_back({particles.id[row], j});
-      });
+      const std::size_t count = grid.find_within({x[i], y[i]}, squared_reach, x.data(), y.data(), near);
+      for (std::size_t k = 0; k < count; ++k)
+        if (near[k] != first + lane) mine.push_back({particles.id[static_cast<std::size_t>(near[k])], near[k]});
       std::sort(mine.begin(), mine.end(), [](const Neighbour& a, const Neighbour& b) { return a.id < b.id; });
       slice.entries = std::max(slice.entries, static_cast<std::int32_t>(mine.size()));
       list.pairs += static_cast<std::int64_t>(mine.size());

@@ -199,6 +199,11 @@ MotionMaxima kick_and_drift(FluidParticles& f, StepLengths steps, double speed_l
 }
 
 MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_limit) {
+  return kick_and_drift(s, steps, speed_limit, [](std::span<const RowRange>) {});
+}
+
+MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_limit,
+                            const std::function<void(std::span<const RowRange>)>& then) {
   SquaredMaximum speed, moved, none;
   for_each_run(s.owned, [&](std::span<const RowRange> rows) {
     for (const RowRange& range : rows)
@@ -220,6 +225,7 @@ MotionMaxima kick_and_drift(SolidParticles& s, StepLengths steps, double speed_l
     accumulate_energy(rows, steps.next, s.mass, s.artificial_stress_power, s.artificial_stress_work);
     add_rows(rows, s.staggered_velocity, speed);
     add_rows(rows, s.position, s.list_position, moved);
+    then(rows);
   });
   return finish(speed, moved, none, speed_limit);
 }

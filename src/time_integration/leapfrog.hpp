@@ -7,6 +7,7 @@
 // takes half a step.
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <span>
 
@@ -74,6 +75,9 @@ void predict_velocity(SolidParticles& solid, double previous_step);
 /// held particles (is_fixed 1) stay. `speed_limit` in m/s.
 MotionMaxima kick_and_drift(FluidParticles& fluid, StepLengths steps, double speed_limit, BoxesWanted boxes = {});
 MotionMaxima kick_and_drift(SolidParticles& solid, StepLengths steps, double speed_limit);
+/// With `then` done to each run of rows once it has moved, while its columns are still in the cache.
+MotionMaxima kick_and_drift(SolidParticles& solid, StepLengths steps, double speed_limit,
+                            const std::function<void(std::span<const RowRange>)>& then);
 
 /// The same for a solid whose stress follows from its position: velocity and position, and if `is_heated` the
 /// dissipated energy.

@@ -34,11 +34,11 @@ void gather_state(const Communicator& communicator, const Set& set, std::vector<
   std::vector<std::uint64_t> words;
   std::size_t columns = 0;
   for (const Field* field : set.fields())
-    if (has(field->roles, Role::state)) columns += static_cast<std::size_t>(field->components);
+    if (has(field->roles, Role::state) && !field->is_left_out()) columns += static_cast<std::size_t>(field->components);
   set.for_each_owned([&](std::size_t row) {
     ids.push_back(set.id[row]);
     for (const Field* field : set.fields())
-      if (has(field->roles, Role::state))
+      if (has(field->roles, Role::state) && !field->is_left_out())
         for (int c = 0; c < field->components; ++c)
           words.push_back(std::bit_cast<std::uint64_t>(field->columns[static_cast<std::size_t>(c)][row]));
   });

@@ -35,11 +35,12 @@ inline PlaneStrainTensor<double> inverse(const PlaneStrainTensor<double>& m) {
   return {scale * m.yy, scale * m.xx, -scale * m.xy};
 }
 
-/// sum_j V_j (u_j - u_i) (x) grad W_ij, of displacements or velocities: with `u` = u_i - u_j.
+/// sum_j V_j (u_j - u_i) (x) grad W_ij, of displacements or velocities: with `u` = u_i - u_j and `weight` = V_j
+/// gradient_factor().
 template <class T>
-[[gnu::always_inline]] inline void add_to_gradient(const T& volume, const T& factor, const T& x, const T& y,
-                                                   const T& u_x, const T& u_y, PlaneTensor<T>& gradient) {
-  const T along_x = volume * factor * x, along_y = volume * factor * y;
+[[gnu::always_inline]] inline void add_to_gradient(const T& weight, const T& x, const T& y, const T& u_x, const T& u_y,
+                                                   PlaneTensor<T>& gradient) {
+  const T along_x = weight * x, along_y = weight * y;
   gradient.xx -= u_x * along_x;
   gradient.xy -= u_x * along_y;
   gradient.yx -= u_y * along_x;
@@ -47,13 +48,13 @@ template <class T>
 }
 
 /// The acceleration that j gives i, sum_j V_j/rho_0 (P_i B_i + P_j B_j) grad W_ij: the exact gradient of the energy sum
-/// V psi(F), so that momentum, angular momentum and energy are kept. `load` = P B, Pa.
+/// V psi(F), so that momentum, angular momentum and energy are kept. `load` = P B, Pa; `weight` = V_j/rho_0
+/// gradient_factor().
 template <class T>
-[[gnu::always_inline]] inline void add_to_acceleration(const T& specific_volume, const T& factor, const T& x,
-                                                       const T& y, const PlaneTensor<T>& load_i,
-                                                       const PlaneTensor<T>& load_j, T& acceleration_x,
-                                                       T& acceleration_y) {
-  const T along_x = specific_volume * factor * x, along_y = specific_volume * factor * y;
+[[gnu::always_inline]] inline void add_to_acceleration(const T& weight, const T& x, const T& y,
+                                                       const PlaneTensor<T>& load_i, const PlaneTensor<T>& load_j,
+                                                       T& acceleration_x, T& acceleration_y) {
+  const T along_x = weight * x, along_y = weight * y;
   acceleration_x += (load_i.xx + load_j.xx) * along_x + (load_i.xy + load_j.xy) * along_y;
   acceleration_y += (load_i.yx + load_j.yx) * along_x + (load_i.yy + load_j.yy) * along_y;
 }

@@ -18,17 +18,20 @@ void clear(std::array<Column<double>, n>& columns, std::size_t rows) {
   }
 }
 
-std::vector<double> pair_factors(const CubicSpline& kernel, const SolidParticles& s, const OffsetNeighbours& list) {
-  std::vector<double> factors(block_size * list.offsets.size());
-  const double *x = s.reference_position.x.data(), *y = s.reference_position.y.data();
+/// m_j `mass_factor` gradient_factor() of the pairs.
+std::vector<double> pair_weights(const CubicSpline& kernel, const SolidParticles& s, const OffsetNeighbours& list,
+                                 double mass_factor) {
+  std::vector<double> weights(block_size * list.offsets.size());
+  const double *x = s.reference_position.x.data(), *y = s.reference_position.y.data(), *mass = s.mass.data();
   for (const OffsetNeighbours::Block& block : list.blocks)
     for (std::int32_t k = block.first_offset; k < block.first_offset + block.offsets; ++k)
       for (std::int32_t lane = 0; lane < block_size; lane += pack_size) {
         const std::int64_t i = block.first_row + lane, j = i + list.offsets[static_cast<std::size_t>(k)];
-        store(gradient_factor(kernel, load(x + i) - load(x + j), load(y + i) - load(y + j)),
-              factors.data() + std::ptrdiff_t{block_size} * k + lane);
+        const Pack volume = load(mass + j) * Pack(mass_factor);
+        store(volume * gradient_factor(kernel, load(x + i) - load(x + j), load(y + i) - load(y + j)),
+              weights.data() + std::ptrdiff_t{block_size} * k + lane);
       }
-  return factors;
+  return weights;
 }
 
 }  // namespace
@@ -63,9 +66,10 @@ void TotalLagrangianSweep::relist(const SolidParticles& s, const std::vector<cha
     if (is_rigid[row] != 0) wanted[row] = 0;
   deformed_ = OffsetNeighbours::build(s, wanted, x, y, support_);
 
-  deformed_factors_ = pair_factors(kernel_, s, deformed_);
-  owned_factors_ = pair_factors(kernel_, s, owned_);
+  deformed_weights_ = pair_weights(kernel_, s, deformed_, 1.0 / density_);
+  owned_weights_ = pair_weights(kernel_, s, owned_, 1.0 / (density_ * density_));
 
+  clear(displacement_, s.size());
   clear(moment_, s.size());
   clear(gradient_, s.size());
   clear(load_, s.size());
@@ -96,7 +100,17 @@ void TotalLagrangianSweep::relist(const SolidParticles& s, const std::vector<cha
   }
 }
 
+void TotalLagrangianSweep::find_displacements(const SolidParticles& s, RowRange rows) {
+  const double *x0 = s.reference_position.x.data(), *y0 = s.reference_position.y.data();
+  const double *x = s.position.x.data(), *y = s.position.y.data();
+  double *moved_x = displacement_[0].data(), *moved_y = displacement_[1].data();
+  for (std::int32_t row = rows.begin; row < rows.end; ++row) moved_x[row] = x[row] - x0[row];
+  for (std::int32_t row = rows.begin; row < rows.end; ++row) moved_y[row] = y[row] - y0[row];
+}
+
 void TotalLagrangianSweep::deform(const SolidParticles& solid, Blocks which) {
+  for (const RowRange& rows : which == Blocks::without_ghosts ? solid.owned : solid.ghosts)
+    find_displacements(solid, rows);
   std::visit(
       [&]<class Law>(const TotalLagrangianMaterial<Law>& material) {
         if (is_viscous_)
@@ -112,28 +126,25 @@ void TotalLagrangianSweep::deform_blocks(const TotalLagrangianMaterial<Law>& m, 
   const TotalLagrangianMaterial<Law> material = m;
   const double inverse_density = 1.0 / material.density;
   const double *x0 = s.reference_position.x.data(), *y0 = s.reference_position.y.data();
-  const double *x = s.position.x.data(), *y = s.position.y.data(), *mass = s.mass.data();
+  const double *moved_x = displacement_[0].data(), *moved_y = displacement_[1].data();
   const double *u = s.velocity.x.data(), *v = s.velocity.y.data();
   Pack least(which == Blocks::without_ghosts ? 1.0 : least_determinant_);
   for (const OffsetNeighbours::Block& block : deformed_.blocks) {
     if (block.needs_ghosts != (which == Blocks::with_ghosts)) continue;
     const std::int32_t* offsets = deformed_.offsets.data() + block.first_offset;
-    const double* factors = deformed_factors_.data() + std::ptrdiff_t{block_size} * block.first_offset;
+    const double* weights = deformed_weights_.data() + std::ptrdiff_t{block_size} * block.first_offset;
     for (std::int32_t lane = 0; lane < block_size; lane += pack_size) {
       const std::int64_t i = block.first_row + lane;
       const Pack x0_i = load(x0 + i), y0_i = load(y0 + i);
-      const Pack moved_x = load(x + i) - x0_i, moved_y = load(y + i) - y0_i;
+      const Pack moved_x_i = load(moved_x + i), moved_y_i = load(moved_y + i);
       const Pack u_i = load(u + i), v_i = load(v + i);
       PlaneTensor<Pack> displacement, velocity;
       for (std::int32_t k = 0; k < block.offsets; ++k) {
         const std::int64_t j = i + offsets[k];
         const Pack dx = x0_i - load(x0 + j), dy = y0_i - load(y0 + j);
-        const Pack factor = load(factors + std::ptrdiff_t{block_size} * k + lane),
-                   volume = load(mass + j) * Pack(inverse_density);
-        add_to_gradient(volume, factor, dx, dy, moved_x - (load(x + j) - load(x0 + j)),
-                        moved_y - (load(y + j) - load(y0 + j)), displacement);
-        if constexpr (is_viscous)
-          add_to_gradient(volume, factor, dx, dy, u_i - load(u + j), v_i - load(v + j), velocity);
+        const Pack weight = load(weights + std::ptrdiff_t{block_size} * k + lane);
+        add_to_gradient(weight, dx, dy, moved_x_i - load(moved_x + j), moved_y_i - load(moved_y + j), displacement);
+        if constexpr (is_viscous) add_to_gradient(weight, dx, dy, u_i - load(u + j), v_i - load(v + j), velocity);
       }
       const PlaneStrainTensor<Pack> b{load(moment_[0].data() + i), load(moment_[1].data() + i),
                                       load(moment_[2].data() + i)};
@@ -167,15 +178,14 @@ void TotalLagrangianSweep::deform_blocks(const TotalLagrangianMaterial<Law>& m, 
 }
 
 void TotalLagrangianSweep::accelerate(SolidParticles& s) const {
-  const double squared_inverse_density = 1.0 / (density_ * density_);
-  const double *x0 = s.reference_position.x.data(), *y0 = s.reference_position.y.data(), *mass = s.mass.data();
+  const double *x0 = s.reference_position.x.data(), *y0 = s.reference_position.y.data();
   const auto load_of = [&](std::int64_t row) -> PlaneTensor<Pack> {
     return {load(load_[0].data() + row), load(load_[1].data() + row), load(load_[2].data() + row),
             load(load_[3].data() + row)};
   };
   for (const OffsetNeighbours::Block& block : owned_.blocks) {
     const std::int32_t* offsets = owned_.offsets.data() + block.first_offset;
-    const double* factors = owned_factors_.data() + std::ptrdiff_t{block_size} * block.first_offset;
+    const double* weights = owned_weights_.data() + std::ptrdiff_t{block_size} * block.first_offset;
     for (std::int32_t lane = 0; lane < block_size; lane += pack_size) {
       const std::int64_t i = block.first_row + lane;
       const Pack x0_i = load(x0 + i), y0_i = load(y0 + i);
@@ -184,8 +194,7 @@ void TotalLagrangianSweep::accelerate(SolidParticles& s) const {
       for (std::int32_t k = 0; k < block.offsets; ++k) {
         const std::int64_t j = i + offsets[k];
         const Pack dx = x0_i - load(x0 + j), dy = y0_i - load(y0 + j);
-        add_to_acceleration(load(mass + j) * Pack(squared_inverse_density),
-                            load(factors + std::ptrdiff_t{block_size} * k + lane), dx, dy, load_i, load_of(j), ax, ay);
+        add_to_acceleration(load(weights + std::ptrdiff_t{block_size} * k + lane), dx, dy, load_i, load_of(j), ax, ay);
       }
       store(ax, s.acceleration.x.data() + i);
       store(ay, s.acceleration.y.data() + i);

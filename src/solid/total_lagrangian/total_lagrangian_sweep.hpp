@@ -54,6 +54,7 @@ class TotalLagrangianSweep {
 
  private:
   PlaneTensor<double> gradient(std::int32_t row) const;
+  void find_displacements(const SolidParticles& solid, RowRange rows);
   template <class Law, bool is_viscous>
   void deform_blocks(const TotalLagrangianMaterial<Law>& material, const SolidParticles& solid, Blocks which);
 
@@ -62,13 +63,14 @@ class TotalLagrangianSweep {
   double support_, density_;
   bool is_viscous_;
   OffsetNeighbours deformed_, owned_;
-  // gradient_factor() of the pairs, which never changes: eight lanes for each offset of each block, one block after the
-  // other.
-  std::vector<double> deformed_factors_, owned_factors_;
-  std::array<Column<double>, 3> moment_;    // B: xx, yy, xy
-  std::array<Column<double>, 4> gradient_;  // F: xx, xy, yx, yy
-  std::array<Column<double>, 4> load_;      // P B
-  Column<double> heating_;                  // W/kg
+  // gradient_factor() of the pairs times V_j, or V_j/rho_0, which never change: eight lanes for each offset of each
+  // block, one block after the other.
+  std::vector<double> deformed_weights_, owned_weights_;
+  std::array<Column<double>, 2> displacement_;  // m: once a row, not once a pair
+  std::array<Column<double>, 3> moment_;        // B: xx, yy, xy
+  std::array<Column<double>, 4> gradient_;      // F: xx, xy, yx, yy
+  std::array<Column<double>, 4> load_;          // P B
+  Column<double> heating_;                      // W/kg
   double least_determinant_ = 1;
 };
 

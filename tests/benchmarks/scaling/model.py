@@ -34,6 +34,7 @@ GATHERED_COLUMNS, RETURNED_COLUMNS = 4, 2  # positions and velocities to the int
 REDUCED_BYTES = 136
 CONTRIBUTION_BYTES = 24  # what a rank says of a cell
 ARC_BYTES = 96
+MOST_WEIGHED = 0.8  # of a mean share: what the owner's work counts for at most, as METIS cannot balance what outweighs one
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,7 @@ class Costs:
     particle: float
     imbalance: float
     curve_point: float
+    weighed_point: float
     detection_particle: float
     detection_arc: float
     list_particle: float
@@ -159,8 +161,8 @@ def traffic(particles: float, ranks: int, perimeter: float = PERIMETER) -> Traff
 
 
 def step_time(particles: float, ranks: int, costs: Costs, network: Network = Network(), design: Design = Design()) -> StepTime:
-    """The owner sweeps its share as all do, and works on the curve besides; what it gathers is under way during the sweep,
-    what it sends back is not; the halo is under way likewise."""
+    """The owner works on the curve besides, and has fewer particles by what that counts for; what it gathers is under way
+    during the sweep, what it sends back is not; the halo is under way likewise."""
     counted = traffic(particles, ranks)
     points, cells, own = curve_points(particles), occupied_cells(particles), particles / ranks
     sweep = costs.particle * own
@@ -177,9 +179,11 @@ def step_time(particles: float, ranks: int, costs: Costs, network: Network = Net
         table, cells_to_all, cut = table / ranks, network.reduction(ranks), cut / ranks
     arcs = (costs.detection_arc * points + network.gather_to_all(ranks, ARC_BYTES * points)) / workers
     rebuilds = 1 / costs.steps_between_redistributions
+    owner = (costs.curve_point * points + band_copies) / workers
+    weighed = min(costs.weighed_point * points, MOST_WEIGHED * own) * costs.particle if ranks > 1 and not design.shared_interface else 0.0
     return StepTime(
-        particles=sweep * (1 + (costs.imbalance if ranks > 1 else 0.0)),
-        owner=(costs.curve_point * points + band_copies) / workers,
+        particles=(sweep + weighed / ranks) * (1 + (costs.imbalance if ranks > 1 else 0.0)),
+        owner=max(0.0, owner - weighed),
         halo=inside + 2 * costs.packed_row * counted.halo_rows,
         gather=gathered / workers if ranks > 1 else 0.0,
         reduction=network.reduction(ranks),

@@ -75,6 +75,12 @@ class TimeTest(unittest.TestCase):
         self.assertAlmostEqual(alone / ranks / model.step_time(particles, ranks, costs, INSTANT).total, 0.5, places=2)
         self.assertGreater(model.efficiency(particles, ranks, costs, INSTANT, Design(shared_interface=True)), 0.9)
 
+    def test_others_do_the_sweep_of_what_the_owner_is_weighed_with(self) -> None:
+        costs = replace(FREE, particle=50e-9, curve_point=75e-9, weighed_point=1.5)
+        self.assertAlmostEqual(model.efficiency(1e6, 4, costs, INSTANT), 1.0)
+        many = model.step_time(1e6, 1000, costs, INSTANT)  # 3545 points weigh more than 1000 particles
+        self.assertAlmostEqual(many.owner, 75e-9 * model.curve_points(1e6) - 0.8 * 50e-9 * 1000)
+
     def test_what_every_rank_does_for_all_cells_does_not_scale(self) -> None:
         costs = replace(FREE, list_cell=1e-6, partition_cell=2e-6)
         cells = 1e6 / model.LIST_REACH**2

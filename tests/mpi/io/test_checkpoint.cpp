@@ -101,7 +101,7 @@ TEST_F(Checkpoints, WrongArgumentsAreRefusedOnAllRanks) {
     refused(tables, test::sample_header(), test::sample_numbers(), 2, words);
   };
 
-  std::vector<std::int64_t> ids(good[1].ids.begin(), good[1].ids.end());
+  std::vector<std::int64_t> ids = good[1].ids.joined();
   auto tables = good;
   tables[1].ids = ids;
   if (last) ids.back() = ids.front();
@@ -114,7 +114,8 @@ TEST_F(Checkpoints, WrongArgumentsAreRefusedOnAllRanks) {
   tables[0].total_rows = 41;
   refused_tables(tables, "40 rows together, but 41");
   tables = good;
-  if (last) tables[0].columns[1].values = tables[0].columns[1].values.first(1);
+  const std::vector<double> one(1);
+  if (last) tables[0].columns[1].values = one;
   refused_tables(tables, "'fluid/density': 1 values for");
   tables = good;
   tables[0].columns[1].name = "x";

@@ -222,7 +222,7 @@ TEST_F(Snapshot, WrongRowsAreRefusedOnAllRanks) {
 
   const TestRows good(world_, 100, owner);
   auto columns = good.columns();
-  if (world_.rank() == last) columns[2].components[0] = columns[2].components[0].first(1);
+  if (world_.rank() == last) columns[2].components[0] = std::span(good.velocity_y).first(1);
   EXPECT_NE(failure(path, good.rows(), columns).find("'density': 1 values for"), std::string::npos);
   columns = good.columns();
   columns[0].name = "id";

@@ -15,7 +15,7 @@ namespace {
 
 /// This rank's share of what a checkpoint's file would hold of a table.
 Checkpoint::Table share(const Communicator& from, const Communicator& to, const CheckpointTable& table) {
-  const auto ids = from.all_gather(table.ids);
+  const auto ids = from.all_gather(std::span<const std::int64_t>(table.ids.joined()));
   std::vector<std::size_t> order(ids.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
@@ -27,7 +27,7 @@ Checkpoint::Table share(const Communicator& from, const Communicator& to, const 
   result.first_id = first < last ? ids[order[first]] : 0;
   result.row_count = static_cast<std::int64_t>(last - first);
   for (const CheckpointColumn& column : table.columns) {
-    const auto all = from.all_gather(column.values);
+    const auto all = from.all_gather(std::span<const double>(column.values.joined()));
     Checkpoint::Column& taken = result.columns.emplace_back();
     taken.name = column.name;
     for (std::size_t k = first; k < last; ++k) taken.values.push_back(all[order[k]]);

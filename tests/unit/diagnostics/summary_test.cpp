@@ -27,6 +27,8 @@ RunSummary full() {
   run.ranks = 2;
   run.instructions = "x86-64-v3, vectors of 4 doubles";
   run.load_imbalance = 1.07;
+  run.partition_imbalance = 1.034;
+  run.repartitions = 3;
   run.state_hash = 0x0123456789abcdefU;
   return run;
 }
@@ -134,6 +136,7 @@ TEST(Summary, WallTimeAndLoad) {
   EXPECT_EQ(value_of(text, "per particle and step"), "12.5 ns (5000 particles, 1600000 steps, 2 ranks)");
   EXPECT_EQ(value_of(text, "compiled for"), "x86-64-v3, vectors of 4 doubles");
   EXPECT_EQ(value_of(text, "load, largest / mean"), "1.070");
+  EXPECT_EQ(value_of(text, "work, largest / mean"), "1.034 by the last of 3 partitions");
 }
 
 TEST(Summary, ARestartedPartCountsItsOwnStepsOnly) {

@@ -67,6 +67,15 @@ TEST(ParticleSet, FindsColumnsByRole) {
   EXPECT_TRUE(set.columns_with(Role::constant).empty());
 }
 
+TEST(ParticleSet, WhatIsLeftOutHasNoRowsAndIsNotFound) {
+  ThreeFields set;
+  set.third.leave_out();
+  set.resize(5);
+  EXPECT_EQ(set.third.xx.size(), 0u);
+  EXPECT_EQ(set.first.columns[0].size(), 5u);
+  EXPECT_EQ(set.columns_with(Role::state), (std::vector<Column<double>*>{&set.first.columns[0]}));
+}
+
 TEST(ParticleSet, VisitsAndCountsOwnedRows) {
   ThreeFields set;
   set.resize(10);

@@ -1,0 +1,90 @@
+// Work is dealt out evenly, that of the surface's owner included, and stays so while the drop spreads.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "config/case_file.hpp"
+#include "setup/initial_state.hpp"
+#include "simulation/simulation.hpp"
+
+namespace sphdrop {
+namespace {
+
+// What takes how long, in particles of the liquid: tests/benchmarks/README.md.
+struct Work {
+  double solid_particle, curve_point;
+};
+
+double imbalance(const Simulation& simulation, const Work& work) {
+  const Communicator& communicator = simulation.communicator();
+  const auto count = [](std::size_t n) { return static_cast<double>(n); };
+  double mine = count(simulation.fluid().owned_count()) + work.solid_particle * count(simulation.solid().owned_count());
+  if (simulation.surface_tension().owner() == communicator.rank())
+    mine += work.curve_point * simulation.surface_tension().report().node_count;
+  double sum = 0;
+  for (const double share : communicator.all_gather(std::span<const double>(&mine, 1))) sum += share;
+  return communicator.max(mine) * communicator.size() / sum;
+}
+
+double imbalance_of(const char* text, const Work& work) {
+  const Communicator communicator(MPI_COMM_WORLD);
+  const Case input = parse_case_text(text, "test.cfg").values;
+  const InitialState initial = build_initial_state(input);
+  Simulation simulation(communicator, input, initial.fluid, initial.solid);
+  simulation.evaluate();
+  EXPECT_LE(simulation.distribution().quality().imbalance, 1.05);
+  if (communicator.size() > 1 && input.drop.is_liquid()) {
+    EXPECT_EQ(simulation.surface_tension().owner(), simulation.distribution().surface_owner());
+  }
+  return imbalance(simulation, work);
+}
+
+TEST(LoadBalance, OfADropOnABeamOfParticles) {
+  EXPECT_LE(imbalance_of(R"(
+[resolution]
+spacing = 2.5e-5
+[time]
+end = 1e-3
+[drop]
+diameter = 1e-3
+[solid]
+kind = "cantilever"
+length = 8e-3
+)",
+                         {0.9, 1.5}),
+            1.05);
+}
+
+TEST(LoadBalance, OfADropAlone) {
+  EXPECT_LE(imbalance_of(R"(
+[resolution]
+spacing = 2.5e-5
+[time]
+end = 1e-3
+[drop]
+diameter = 2e-3
+)",
+                         {0.9, 1.5}),
+            1.05);
+}
+
+TEST(LoadBalance, OfADropOnABeamOfCells) {
+  EXPECT_LE(imbalance_of(R"(
+mode = "modern"
+[resolution]
+spacing = 2.5e-5
+[time]
+end = 1e-3
+[drop]
+diameter = 2e-3
+[solid]
+kind = "cantilever"
+length = 16e-3
+)",
+                         {0.125, 1.5}),
+            1.05);
+}
+
+}  // namespace
+}  // namespace sphdrop
