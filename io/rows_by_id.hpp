@@ -25,15 +25,19 @@ struct RowBlock {
 /// parts, one after the other, so that what is under way takes little memory beside the columns.
 class RowsById {
  public:
-  /// Parts are as many as a block has of these rows, but not more than most_parts.
-  static constexpr std::int64_t usual_part_rows = 1 << 16;
+  /// Parts are as many as a block has of these rows, but not more than most_parts. Several ranks wait for each other in
+  /// every part, which takes longer than to move a few rows.
+  static constexpr std::int64_t usual_part_rows(int ranks) { return ranks == 1 ? 1 << 16 : 1 << 18; }
   static constexpr std::int64_t most_parts = 16;
 
   /// Collective. `ids`: of the rows this rank owns, in any order; over all ranks they must be first_id ... first_id +
   /// total - 1, once each. They stay where they are and must outlive this object. Throws CollectiveError on all ranks
   /// if they are not; of an id that comes twice only when its part's turn has come.
+  RowsById(const Communicator& communicator, std::int64_t first_id, std::int64_t total, const Pieces<std::int64_t>& ids)
+      : RowsById(communicator, first_id, total, ids, usual_part_rows(communicator.size())) {}
+  /// With parts of these rows, at least 1.
   RowsById(const Communicator& communicator, std::int64_t first_id, std::int64_t total, const Pieces<std::int64_t>& ids,
-           std::int64_t part_rows = usual_part_rows);
+           std::int64_t part_rows);
 
   /// Of this rank; row k is that of the id first_id + k.
   const RowBlock& block() const { return block_; }

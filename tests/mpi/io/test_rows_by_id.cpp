@@ -100,7 +100,7 @@ TEST_P(RowsByIdParts, EveryRowOfABlockComesOnceInItsPlace) {
   EXPECT_EQ(world_.sum(constants), world_.sum(static_cast<std::int64_t>(half)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, RowsByIdParts, testing::Values(1, 20, 64, 333, 1000, RowsById::usual_part_rows));
+INSTANTIATE_TEST_SUITE_P(Sizes, RowsByIdParts, testing::Values(1, 20, 64, 333, 1000, RowsById::usual_part_rows(1)));
 
 TEST(RowsById, PartsThatAreAskedForSmallerThanASixteenthAreOfASixteenth) {
   const Communicator world(MPI_COMM_WORLD);
