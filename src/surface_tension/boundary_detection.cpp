@@ -46,16 +46,24 @@ ArcFinder::Cover ArcFinder::cover_by(Vector separation, double squared_distance,
 
 const ArcFinder::Cover* ArcFinder::farthest_reaching(Vector direction) const {
   const Cover* best = nullptr;
-  double best_cosine = 2.0;
+  double best_cosine = 1.0;
   for (const Cover& cover : covers_) {
     if (cross(cover.start, direction) < -angle_tolerance || cross(direction, cover.end) <= angle_tolerance) continue;
     const double cosine = dot(direction, cover.end);  // falls with the angle, which is below half a turn
-    if (cosine < best_cosine || (cosine == best_cosine && cover.neighbour < best->neighbour)) {
+    if (best == nullptr || cosine < best_cosine || (cosine == best_cosine && cover.neighbour < best->neighbour)) {
       best = &cover;
       best_cosine = cosine;
     }
   }
   return best;
+}
+
+bool ArcFinder::is_nearer(const Cover& a, const Cover& b) {
+  return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance : a.neighbour < b.neighbour;
+}
+
+bool ArcFinder::is_farther(const Cover& a, const Cover& b) {
+  return a.squared_distance != b.squared_distance ? a.squared_distance > b.squared_distance : a.neighbour < b.neighbour;
 }
 
 bool ArcFinder::is_covered_by(Vector centre, std::span<const Vector> neighbour_positions) const {
@@ -83,47 +91,54 @@ void ArcFinder::find(std::int64_t particle, Vector centre, std::span<const std::
   append_uncovered(particle, arcs);
 }
 
+const ArcFinder::Cover& ArcFinder::first_to_start(Vector direction) const {
+  const Cover* first = &covers_.front();
+  double gap = angle_ahead(direction, first->start);
+  for (const Cover& cover : covers_) {
+    const double ahead = angle_ahead(direction, cover.start);
+    if (ahead >= gap) continue;
+    first = &cover;
+    gap = ahead;
+  }
+  return *first;
+}
+
+const ArcFinder::Cover& ArcFinder::outermost_ending_with(const Cover& end) const {
+  const Cover* outermost = &end;
+  for (const Cover& cover : covers_)
+    if (same_direction(cover.end, end.end) && is_farther(cover, *outermost)) outermost = &cover;
+  return *outermost;
+}
+
+const ArcFinder::Cover& ArcFinder::outermost_starting_with(const Cover& start) const {
+  const Cover* outermost = &start;
+  for (const Cover& cover : covers_)
+    if (same_direction(cover.start, start.start) && is_farther(cover, *outermost)) outermost = &cover;
+  return *outermost;
+}
+
 void ArcFinder::append_uncovered(std::int64_t particle, std::vector<Arc>& arcs) const {
   if (covers_.empty()) {
     arcs.push_back({particle, particle, particle, {1.0, 0.0}, {1.0, 0.0}});
     return;
   }
-  // Where covers begin or end together, the one of the farthest neighbour is at the gap: just outside the circle, the
-  // others lie behind it. That neighbour sees it the same way, so the arcs of both fit together.
-  const auto is_outermost = [](const Cover& a, const Cover& b) {
-    return a.squared_distance != b.squared_distance ? a.squared_distance > b.squared_distance
-                                                    : a.neighbour < b.neighbour;
-  };
-  const auto nearest = std::min_element(covers_.begin(), covers_.end(), [](const Cover& a, const Cover& b) {
-    return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
-                                                    : a.neighbour < b.neighbour;
-  });
-  const Vector origin = nearest->end;
+  const Cover& nearest = *std::min_element(covers_.begin(), covers_.end(), is_nearer);
+  const Vector origin = nearest.end;
+  const Cover* reached = &nearest;  // the last cover that the walk went to the end of
   Vector direction = origin;
   double remaining = full_turn;
   for (std::size_t step = 0; step <= 2 * covers_.size(); ++step) {
     if (const Cover* cover = farthest_reaching(direction)) {
       if (angle_ahead(direction, cover->end) >= remaining - angle_tolerance) return;
+      reached = cover;
       direction = cover->end;
     } else {
-      const Cover* next = nullptr;
-      double gap = full_turn;
-      for (const Cover& candidate : covers_) {
-        const double ahead = angle_ahead(direction, candidate.start);
-        if (next == nullptr || ahead < gap) {
-          next = &candidate;
-          gap = ahead;
-        }
-      }
-      const Cover* previous = nullptr;
-      const Vector gap_end = next->start;
-      for (const Cover& candidate : covers_) {
-        if (same_direction(candidate.end, direction) && (previous == nullptr || is_outermost(candidate, *previous)))
-          previous = &candidate;
-        if (same_direction(candidate.start, gap_end) && is_outermost(candidate, *next)) next = &candidate;
-      }
-      arcs.push_back({particle, previous->neighbour, next->neighbour, previous->end, next->start});
-      direction = next->start;
+      // Where covers begin or end together, the one of the farthest neighbour is at the gap: just outside the circle,
+      // the others lie behind it. That neighbour sees it the same way, so the arcs of both fit together.
+      const Cover& previous = outermost_ending_with(*reached);
+      const Cover& next = outermost_starting_with(first_to_start(direction));
+      arcs.push_back({particle, previous.neighbour, next.neighbour, previous.end, next.start});
+      direction = next.start;
     }
     remaining = angle_ahead(direction, origin);
   }

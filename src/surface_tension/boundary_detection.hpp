@@ -68,7 +68,16 @@ class ArcFinder {
   };
 
   Cover cover_by(Vector separation, double squared_distance, std::int64_t neighbour) const;
+  /// Of equally far ones the one of the lower neighbour, as of equally near ones.
+  static bool is_nearer(const Cover& a, const Cover& b);
+  static bool is_farther(const Cover& a, const Cover& b);
+  /// The cover that `direction` is in and that goes on farthest from there; null where none goes on.
   const Cover* farthest_reaching(Vector direction) const;
+  /// The cover that starts first, counterclockwise from `direction`.
+  const Cover& first_to_start(Vector direction) const;
+  /// The farthest neighbour's of the covers that end, or start, where this one does.
+  const Cover& outermost_ending_with(const Cover& end) const;
+  const Cover& outermost_starting_with(const Cover& start) const;
   void append_uncovered(std::int64_t particle, std::vector<Arc>& arcs) const;
 
   double largest_squared_distance_;  ///< (4h)^2, a little less: circles that only touch cover nothing
