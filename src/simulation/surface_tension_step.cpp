@@ -9,6 +9,7 @@
 #include "diagnostics/number_reader.hpp"
 #include "fluid/particle_shifting.hpp"
 #include "sph/cell_grid.hpp"
+#include "surface_tension/near_particles.hpp"
 #include "surface_tension/surface_points.hpp"
 
 namespace sphdrop {
@@ -27,7 +28,7 @@ SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const C
       orients_particles_(input.fluid.shifting == Switch::on),
       displacement_is_relative_(input.surface_tension.detection_motion == DetectionMotion::relative &&
                                 !input.is_wetting()),
-      finder_(support_),
+      search_(support_),
       is_wetting_(is_enabled() && input.is_wetting()),
       adhesion_parameters_(adhesion_parameters(
           spacing_, input.contact.distance_ratio * spacing_,
@@ -87,7 +88,8 @@ void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
 void SurfaceTensionStep::gather_points(const FluidParticles& fluid) {
   gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
   gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
-  update_points();
+  place_nodes();
+  surface_points(curves_, node_positions_, spacing_, points_);
 }
 
 SurfaceTensionStep::Extent SurfaceTensionStep::extent_on_all_ranks(const ContactStep& contact) {
@@ -100,12 +102,11 @@ SurfaceTensionStep::Extent SurfaceTensionStep::extent_on_all_ranks(const Contact
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-void SurfaceTensionStep::update_points() {
+void SurfaceTensionStep::place_nodes() {
   for (std::size_t k = 0; k < node_particle_.size(); ++k) {
     const auto index = static_cast<std::size_t>(node_particle_[k]);
     node_positions_[k] = {x_[index], y_[index]};
   }
-  surface_points(curves_, node_positions_, spacing_, points_);
 }
 
 void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribution) {
@@ -122,29 +123,8 @@ void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribu
   halo.finish(std::array<void*, 3>{x.data(), y.data(), id.data()});
 
   std::vector<Arc> arcs;
-  std::vector<Vector> near_positions;
-  std::vector<std::int64_t> near_ids;
-  const CellGrid near_grid(x, y, finder_.near_reach() * (1.0 + 1e-9));
-  const CellGrid wide_grid(x, y, 2.0 * support_);
-  for (std::size_t i = 0; i < owned; ++i) {
-    const Vector here{x[i], y[i]};
-    // Most particles are inside: their nearest neighbours already cover their circle.
-    unsigned octants = 0;
-    near_grid.for_each_near(here, [&](std::int32_t j) {
-      const auto k = static_cast<std::size_t>(j);
-      octants |= finder_.octant_of_near(Vector{x[k], y[k]} - here);
-    });
-    if (ArcFinder::covers_circle(octants)) continue;
-    near_positions.clear();
-    near_ids.clear();
-    wide_grid.for_each_near(here, [&](std::int32_t j) {
-      const auto k = static_cast<std::size_t>(j);
-      if (k == i) return;
-      near_positions.push_back({x[k], y[k]});
-      near_ids.push_back(id[k]);
-    });
-    finder_.find(id[i], here, near_ids, near_positions, arcs);
-  }
+  std::vector<Vector> centres;
+  search_.find(x, y, id, owned, arcs, centres);
 
   struct LocatedArc {
     Arc arc;
@@ -152,11 +132,7 @@ void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribu
   };
   std::vector<LocatedArc> mine;
   mine.reserve(arcs.size());
-  std::size_t row = 0;
-  for (const Arc& arc : arcs) {
-    while (id[row] != arc.particle) ++row;  // arcs were appended in the order of rows
-    mine.push_back({arc, {x[row], y[row]}});
-  }
+  for (std::size_t k = 0; k < arcs.size(); ++k) mine.push_back({arcs[k], centres[k]});
   std::vector<LocatedArc> everyone = communicator_.all_gather(std::span<const LocatedArc>(mine));
   std::sort(everyone.begin(), everyone.end(), [](const LocatedArc& a, const LocatedArc& b) {
     return std::pair(a.arc.particle, a.arc.previous) < std::pair(b.arc.particle, b.arc.previous);
@@ -167,7 +143,7 @@ void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribu
     arcs_.push_back(located.arc);
     arc_centres_.push_back(located.centre);
   }
-  find_arc_normals();
+  if (orients_particles_) find_arc_normals();
 }
 
 // Of the line through an arc's neighbours on the curve, or the middle of the arc where there is no such line.
@@ -212,72 +188,59 @@ void SurfaceTensionStep::orient_along_surface(FluidParticles& fluid) const {
 
 void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& contact, const Distribution& distribution) {
   if (orients_particles_) orient_along_surface(fluid);
-  // A surface point is d/2 from its particle and acts as far as 2h. Until the next detection both ends move by its
-  // displacement and a step, the point a little more, as it also turns about its particle.
+  SurfaceCurves curves = connect_arcs(arcs_, arc_centres_, support_);
+  std::vector<Vector> node_positions, points(curves.nodes.size());
+  for (const SurfaceCurves::Node& node : curves.nodes) node_positions.push_back(node.centre);
+  surface_points(curves, node_positions, spacing_, points);
+  // A surface point acts as far as 2h. Until the next detection both ends move by its displacement and a step, the
+  // point a little more, as it also turns about its particle.
   const double action = support_ + 6.0 * detection_displacement_ + 0.02 * spacing_;
-  const double reach = action + 0.5 * spacing_;
-  std::vector<double> arc_x(arc_centres_.size()), arc_y(arc_centres_.size());
-  for (std::size_t k = 0; k < arc_centres_.size(); ++k) {
-    arc_x[k] = arc_centres_[k].x;
-    arc_y[k] = arc_centres_[k].y;
-  }
-  const CellGrid grid(arc_x, arc_y, reach);
+  const std::size_t owned = fluid.owned_count();
+  band_rows_ = particles_near(points, {fluid.detection_position.x.data(), owned},
+                              {fluid.detection_position.y.data(), owned}, action);
   std::vector<std::int64_t> ids;
-  band_rows_.clear();
-  fluid.for_each_owned([&](std::size_t row) {
-    const Vector p = fluid.detection_position.at(row);
-    bool near = false;
-    grid.for_each_near(p, [&](std::int32_t k) {
-      near = near || squared_length(arc_centres_[static_cast<std::size_t>(k)] - p) <= reach * reach;
-    });
-    if (!near) return;
-    band_rows_.push_back(static_cast<std::int32_t>(row));
-    ids.push_back(fluid.id[row]);
-  });
+  for (const std::int32_t row : band_rows_) ids.push_back(fluid.id[static_cast<std::size_t>(row)]);
   int owner = is_wetting_ ? contact.owner() : distribution.surface_owner();
   if (owner < 0) owner = rank_with_most(communicator_, static_cast<std::int64_t>(band_rows_.size()));
-  gather_ = InterfaceGather(communicator_, ids, band_rows_, owner, tags::surface);
+  gather_ = InterfaceGather(communicator_, ids, band_rows_, owner, tags::surface, GatheredOrder::as_arrived);
   returned_x_.assign(band_rows_.size(), 0.0);
   returned_y_.assign(band_rows_.size(), 0.0);
 
   const std::size_t gathered = gather_.ids().size();
-  x_.resize(gathered);
-  y_.resize(gathered);
+  x_.assign(gathered + 1, ForceSharing::far_away);
+  y_.assign(gathered + 1, ForceSharing::far_away);
   velocity_x_.resize(gathered);
   velocity_y_.resize(gathered);
   mass_.resize(gathered);
+  powers_.resize(gathered);
   acceleration_x_.resize(gathered);
   acceleration_y_.resize(gathered);
   gather_.start_gather(std::array<const void*, 3>{fluid.detection_position.x.data(), fluid.detection_position.y.data(),
                                                   fluid.mass.data()});
   gather_.finish_gather(std::array<void*, 3>{x_.data(), y_.data(), mass_.data()});
-  curves_ = {};
-  node_particle_.clear();
-  node_positions_.clear();
-  node_velocities_.clear();
-  points_.clear();
-  point_velocities_.clear();
-  forces_.clear();
-  if (owner != communicator_.rank()) return;
-
-  curves_ = connect_arcs(arcs_, arc_centres_, support_);
-  node_particle_.resize(curves_.nodes.size());
-  node_positions_.resize(curves_.nodes.size());
-  node_velocities_.resize(curves_.nodes.size());
-  points_.resize(curves_.nodes.size());
-  point_velocities_.resize(curves_.nodes.size());
-  forces_.resize(curves_.nodes.size());
-  for (std::size_t k = 0; k < curves_.nodes.size(); ++k) {
-    const std::int32_t index = gather_.index_of(curves_.nodes[k].particle);
-    assert(index >= 0);
-    node_particle_[k] = index;
-    node_positions_[k] = {x_[static_cast<std::size_t>(index)], y_[static_cast<std::size_t>(index)]};
+  if (owner != communicator_.rank()) {
+    curves = {};
+    node_positions.clear();
+    points.clear();
   }
-  surface_points(curves_, node_positions_, spacing_, points_);
-  sharing_.rebuild(points_, x_, y_, action);
+  curves_ = std::move(curves);
+  node_positions_ = std::move(node_positions);
+  points_ = std::move(points);
+  const std::size_t nodes = curves_.nodes.size();
+  node_velocities_.resize(nodes);
+  point_velocities_.resize(nodes);
+  forces_.resize(nodes);
+  node_particle_.clear();
+  for (const SurfaceCurves::Node& node : curves_.nodes) {
+    node_particle_.push_back(gather_.index_of(node.particle));
+    assert(node_particle_.back() >= 0);
+  }
+  if (owner != communicator_.rank()) return;
+  sharing_.rebuild(points_, std::span(x_).first(gathered), std::span(y_).first(gathered), mass_, gather_.by_id(),
+                   action);
   if (is_wetting_) {
     adhesion_.rebuild(node_positions_, contact.boundary(), adhesion_reach_);
-    all_forces_.resize(curves_.nodes.size());
+    all_forces_.resize(nodes);
   }
 }
 
@@ -292,7 +255,12 @@ void SurfaceTensionStep::receive() {
 
 void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
   if (owner() == communicator_.rank()) {
-    update_points();
+    place_nodes();
+    for (std::size_t k = 0; k < node_particle_.size(); ++k) {
+      const auto index = static_cast<std::size_t>(node_particle_[k]);
+      node_velocities_[k] = {velocity_x_[index], velocity_y_[index]};
+    }
+    surface_points(curves_, node_positions_, node_velocities_, spacing_, points_, point_velocities_);
     if (form_ == SurfaceTensionForm::conservative)
       conservative_forces(curves_, points_, coefficient_, forces_);
     else
@@ -306,24 +274,18 @@ void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
                                           adhesion_parameters_, all_forces_);
     }
     const std::vector<Vector>& shared = is_wetting_ ? all_forces_ : forces_;
-    lost_points_ = sharing_.share(points_, shared, x_, y_, mass_, kernel_, acceleration_x_, acceleration_y_);
+    lost_points_ = sharing_.share(points_, shared, x_, y_, kernel_, acceleration_x_, acceleration_y_);
     sharing_power_ = power_of_sharing(shared);
   }
   gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
 }
 
 double SurfaceTensionStep::power_of_sharing(std::span<const Vector> forces) {
+  // Apart from the sum, which has an order and waits for each of its terms.
+  for (std::size_t k = 0; k < powers_.size(); ++k)
+    powers_[k] = mass_[k] * (acceleration_x_[k] * velocity_x_[k] + acceleration_y_[k] * velocity_y_[k]);
   double on_particles = 0, on_points = 0;
-  for (const std::int32_t k : sharing_.particles()) {
-    const auto index = static_cast<std::size_t>(k);
-    on_particles +=
-        mass_[index] * (acceleration_x_[index] * velocity_x_[index] + acceleration_y_[index] * velocity_y_[index]);
-  }
-  for (std::size_t k = 0; k < node_particle_.size(); ++k) {
-    const auto index = static_cast<std::size_t>(node_particle_[k]);
-    node_velocities_[k] = {velocity_x_[index], velocity_y_[index]};
-  }
-  surface_velocities(curves_, node_positions_, node_velocities_, spacing_, point_velocities_);
+  for (const std::int32_t k : sharing_.particles()) on_particles += powers_[static_cast<std::size_t>(k)];
   for (std::size_t k = 0; k < forces.size(); ++k) on_points += dot(forces[k], point_velocities_[k]);
   return on_particles - on_points;
 }
@@ -339,8 +301,8 @@ void SurfaceTensionStep::finish(FluidParticles& fluid) {
 
 double SurfaceTensionStep::energy_of_displacement(std::span<const double> x, std::span<const double> y,
                                                   double gauge_pressure, const ContactStep& contact) {
-  displacement_x_.resize(x_.size());
-  displacement_y_.resize(y_.size());
+  displacement_x_.resize(mass_.size());
+  displacement_y_.resize(mass_.size());
   gather_.start_gather(std::array<const void*, 2>{x.data(), y.data()});
   gather_.finish_gather(std::array<void*, 2>{displacement_x_.data(), displacement_y_.data()});
   if (owner() != communicator_.rank()) return -std::numeric_limits<double>::infinity();

@@ -10,6 +10,7 @@
 #include "particles/solid_particles.hpp"
 #include "simulation/contact_step.hpp"
 #include "simulation/distribution.hpp"
+#include "surface_tension/arc_search.hpp"
 #include "surface_tension/boundary_detection.hpp"
 #include "surface_tension/force_sharing.hpp"
 #include "surface_tension/surface_curve.hpp"
@@ -111,7 +112,7 @@ class SurfaceTensionStep {
 
  private:
   void find_arcs(FluidParticles& fluid, Distribution& distribution);
-  void update_points();
+  void place_nodes();
   double power_of_sharing(std::span<const Vector> forces);
   void find_arc_normals();
   void orient_along_surface(FluidParticles& fluid) const;
@@ -127,7 +128,7 @@ class SurfaceTensionStep {
   double coefficient_, spacing_, support_, detection_displacement_;
   int polynomial_points_;
   bool orients_particles_, displacement_is_relative_;
-  ArcFinder finder_;
+  ArcSearch search_;
 
   // On every rank: the arcs of the last detection and where their particles were.
   std::vector<Arc> arcs_;
@@ -142,11 +143,11 @@ class SurfaceTensionStep {
   std::vector<std::int32_t> band_rows_;
   std::vector<double> returned_x_, returned_y_;
 
-  // At the owner, by gathered particle or by node.
+  // At the owner, by gathered particle (x_ and y_ end with a place far away) or by node.
   SurfaceCurves curves_;
   ForceSharing sharing_;
   std::vector<std::int32_t> node_particle_;
-  std::vector<double> x_, y_, velocity_x_, velocity_y_, mass_, acceleration_x_, acceleration_y_;
+  std::vector<double> x_, y_, velocity_x_, velocity_y_, mass_, powers_, acceleration_x_, acceleration_y_;
   std::vector<Vector> node_positions_, node_velocities_, points_, point_velocities_, forces_;
   std::vector<double> displacement_x_, displacement_y_;
   std::vector<Vector> displaced_positions_, displaced_points_;

@@ -43,6 +43,37 @@ class CellGrid {
       points_[static_cast<std::size_t>(next[static_cast<std::size_t>(cell[k])]++)] = static_cast<std::int32_t>(k);
   }
 
+  /// The points in the order of their cells: row after row, and along each row.
+  std::span<const std::int32_t> points() const { return points_; }
+  /// A part of points().
+  struct Run {
+    std::size_t first, last;
+  };
+  std::size_t row_count() const { return points_.empty() ? 0 : static_cast<std::size_t>(rows_); }
+  Run row(std::size_t index) const {
+    const std::size_t first_cell = index * static_cast<std::size_t>(columns_);
+    return {static_cast<std::size_t>(start_[first_cell]),
+            static_cast<std::size_t>(start_[first_cell + static_cast<std::size_t>(columns_)])};
+  }
+  /// Calls f(run) for every row of cells that meets the rectangle from `low` to `high`, with the run of the points in
+  /// those of its cells that do: together a superset of the points in the rectangle.
+  template <class F>
+  void for_each_run(Vector low, Vector high, F&& f) const {
+    if (points_.empty()) return;
+    // Compared as doubles: a place may be too far away for an integer.
+    const auto cell = [&](double place, double origin, std::int64_t cells) {
+      return static_cast<std::int64_t>(
+          std::clamp(std::floor((place - origin) * inverse_size_), -1.0, static_cast<double>(cells)));
+    };
+    const std::int64_t first_column = std::max<std::int64_t>(cell(low.x, origin_.x, columns_), 0);
+    const std::int64_t last_column = std::min(cell(high.x, origin_.x, columns_), columns_ - 1);
+    if (first_column > last_column) return;
+    const std::int64_t last_row = std::min(cell(high.y, origin_.y, rows_), rows_ - 1);
+    for (std::int64_t r = std::max<std::int64_t>(cell(low.y, origin_.y, rows_), 0); r <= last_row; ++r)
+      f(Run{static_cast<std::size_t>(start_[static_cast<std::size_t>(r * columns_ + first_column)]),
+            static_cast<std::size_t>(start_[static_cast<std::size_t>(r * columns_ + last_column) + 1])});
+  }
+
   /// Calls f(index) for every point in the nine cells about `place`: a superset of those within reach.
   template <class F>
   void for_each_near(Vector place, F&& f) const {

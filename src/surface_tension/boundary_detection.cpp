@@ -3,127 +3,193 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstddef>
+
+#include "particles/pack.hpp"
 
 namespace sphdrop {
 
 namespace {
 
+constexpr auto lanes = static_cast<std::size_t>(pack_size);
+
 /// Directions closer than this (radians) count as one. Gaps narrower are covered: on symmetric arrangements several
 /// circles meet in one point, where round-off alone decides whether there is a gap.
 constexpr double angle_tolerance = 1e-9;
 constexpr double full_turn = 4.0;
+/// More than any cosine.
+constexpr double out_of_reach = 2.0;
 
-/// The angle from `from` counterclockwise to `to`, both unit vectors, as a monotone function of it that needs no
-/// trigonometry: 0 to 4 for a full turn, and equal to the angle itself where that is small.
-double angle_ahead(Vector from, Vector to) {
-  const double x = dot(from, to);
-  const double y = cross(from, to);
-  if (y >= 0.0) return x >= 0.0 ? y / (x + y) : 1.0 - x / (y - x);
-  return x < 0.0 ? 2.0 + y / (x + y) : 3.0 + x / (x - y);
+/// The angle from `from` counterclockwise to the direction (to_x, to_y), both unit vectors, as a monotone function of
+/// it that needs no trigonometry: 0 to 4 for a full turn, and equal to the angle itself where that is small. T is
+/// double or a SIMD vector.
+template <class T>
+T angle_ahead(Vector from, const T& to_x, const T& to_y) {
+  using std::experimental::where;
+  const T x = T(from.x) * to_x + T(from.y) * to_y;
+  const T y = T(from.x) * to_y - T(from.y) * to_x;
+  const auto is_left = y >= T(0.0);
+  const auto is_ahead = x >= T(0.0);
+  // By quarters y/(x + y), 1 - x/(y - x), 2 + y/(x + y), 3 + x/(x - y).
+  T quarters = 0.0, part = y, whole = x + y;
+  where(is_left && !is_ahead, quarters) = T(1.0);
+  where(!is_left && !is_ahead, quarters) = T(2.0);
+  where(!is_left && is_ahead, quarters) = T(3.0);
+  where(is_left && !is_ahead, part) = -x;
+  where(!is_left && is_ahead, part) = x;
+  where(is_left && !is_ahead, whole) = y - x;
+  where(!is_left && is_ahead, whole) = x - y;
+  return quarters + part / whole;
 }
 
-bool same_direction(Vector a, Vector b) {
-  return std::abs(cross(a, b)) <= angle_tolerance && dot(a, b) > 0.0;
+double angle_ahead(Vector from, Vector to) {
+  return angle_ahead(from, to.x, to.y);
 }
 
 }  // namespace
 
 ArcFinder::ArcFinder(double radius)
     : largest_squared_distance_(4.0 * radius * radius * (1.0 - 1e-14)),
-      near_squared_distance_(0.58 * radius * radius),
       inverse_diameter_(1.0 / (2.0 * radius)),
       inverse_squared_diameter_(1.0 / (4.0 * radius * radius)) {
   assert(radius > 0.0);
 }
 
-ArcFinder::Cover ArcFinder::cover_by(Vector separation, double squared_distance, std::int64_t neighbour) const {
-  // The neighbour's direction turned by -/+ acos(r / 2R).
-  const Vector along = inverse_diameter_ * separation;
-  const Vector across = std::sqrt(1.0 / squared_distance - inverse_squared_diameter_) * left_normal(separation);
-  return {along - across, along + across, squared_distance, neighbour};
-}
-
-const ArcFinder::Cover* ArcFinder::farthest_reaching(Vector direction) const {
-  const Cover* best = nullptr;
-  double best_cosine = 2.0;
-  for (const Cover& cover : covers_) {
-    if (cross(cover.start, direction) < -angle_tolerance || cross(direction, cover.end) <= angle_tolerance) continue;
-    const double cosine = dot(direction, cover.end);  // falls with the angle, which is below half a turn
-    if (cosine < best_cosine || (cosine == best_cosine && cover.neighbour < best->neighbour)) {
-      best = &cover;
-      best_cosine = cosine;
-    }
-  }
-  return best;
-}
-
-bool ArcFinder::is_covered_by(Vector centre, std::span<const Vector> neighbour_positions) const {
-  unsigned octants = 0;
-  for (const Vector position : neighbour_positions) octants |= octant_of_near(position - centre);
-  return covers_circle(octants);
-}
-
 void ArcFinder::find(std::int64_t particle, Vector centre, std::span<const std::int64_t> neighbour_ids,
                      std::span<const Vector> neighbour_positions, std::vector<Arc>& arcs) {
   assert(neighbour_ids.size() == neighbour_positions.size());
-  if (is_covered_by(centre, neighbour_positions)) return;
-
-  covers_.clear();
+  start();
   for (std::size_t k = 0; k < neighbour_ids.size(); ++k) {
     if (neighbour_ids[k] == particle) continue;
     const Vector separation = neighbour_positions[k] - centre;
     const double squared_distance = squared_length(separation);
     if (squared_distance >= largest_squared_distance_) continue;
     if (squared_distance > 0.0)
-      covers_.push_back(cover_by(separation, squared_distance, neighbour_ids[k]));
+      add(separation, squared_distance, neighbour_ids[k]);
     else if (neighbour_ids[k] < particle)
       return;
   }
-  append_uncovered(particle, arcs);
+  append_arcs(particle, arcs);
 }
 
-void ArcFinder::append_uncovered(std::int64_t particle, std::vector<Arc>& arcs) const {
-  if (covers_.empty()) {
+void ArcFinder::make_room() {
+  const std::size_t room = std::max<std::size_t>(2 * neighbours_.size(), 64);  // whole vectors, of any machine
+  neighbours_.resize(room);
+  for (auto* column :
+       {&separation_x_, &separation_y_, &squared_distances_, &start_x_, &start_y_, &end_x_, &end_y_, &values_})
+    column->resize(room);
+}
+
+void ArcFinder::find_covers() {
+  using std::sqrt;
+  for (std::size_t k = count_; k % lanes != 0; ++k) {
+    separation_x_[k] = separation_x_[count_ - 1];
+    separation_y_[k] = separation_y_[count_ - 1];
+    squared_distances_[k] = squared_distances_[count_ - 1];
+  }
+  for (std::size_t k = 0; k < count_; k += lanes) {
+    // The neighbour's direction turned by -/+ acos(r / 2R).
+    const Pack x = load(&separation_x_[k]), y = load(&separation_y_[k]);
+    const Pack along_x = Pack(inverse_diameter_) * x, along_y = Pack(inverse_diameter_) * y;
+    const Pack sine_over_distance = sqrt(Pack(1.0) / load(&squared_distances_[k]) - Pack(inverse_squared_diameter_));
+    const Pack across_x = sine_over_distance * -y, across_y = sine_over_distance * x;
+    store(along_x - across_x, &start_x_[k]);
+    store(along_y - across_y, &start_y_[k]);
+    store(along_x + across_x, &end_x_[k]);
+    store(along_y + across_y, &end_y_[k]);
+  }
+}
+
+bool ArcFinder::is_farther(Place a, Place b) const {
+  return squared_distances_[a] != squared_distances_[b] ? squared_distances_[a] > squared_distances_[b]
+                                                        : neighbours_[a] < neighbours_[b];
+}
+
+ArcFinder::Place ArcFinder::least_of_values() const {
+  using std::experimental::min;
+  Pack least_of_lane = load(values_.data());
+  for (std::size_t k = lanes; k < count_; k += lanes) least_of_lane = min(least_of_lane, load(&values_[k]));
+  const double least = hmin(least_of_lane);
+  Place best = count_;
+  for (std::size_t k = 0; k < count_; k += lanes) {
+    if (none_of(load(&values_[k]) == Pack(least))) continue;
+    for (std::size_t lane = k; lane < std::min(k + lanes, count_); ++lane)
+      if (values_[lane] == least && (best == count_ || neighbours_[lane] < neighbours_[best])) best = lane;
+  }
+  return best;
+}
+
+ArcFinder::Place ArcFinder::nearest() {
+  std::copy_n(squared_distances_.begin(), (count_ + lanes - 1) / lanes * lanes, values_.begin());
+  return least_of_values();
+}
+
+ArcFinder::Place ArcFinder::farthest_reaching(Vector direction) {
+  const Pack x = direction.x, y = direction.y;
+  bool any = false;
+  for (std::size_t k = 0; k < count_; k += lanes) {
+    const Pack start_x = load(&start_x_[k]), start_y = load(&start_y_[k]);
+    const Pack end_x = load(&end_x_[k]), end_y = load(&end_y_[k]);
+    const auto is_out =
+        start_x * y - start_y * x < Pack(-angle_tolerance) || x * end_y - y * end_x <= Pack(angle_tolerance);
+    Pack cosine = x * end_x + y * end_y;  // falls with the angle, which is below half a turn
+    where(is_out, cosine) = Pack(out_of_reach);
+    store(cosine, &values_[k]);
+    any = any || !all_of(is_out);
+  }
+  return any ? least_of_values() : count_;
+}
+
+ArcFinder::Place ArcFinder::first_to_start(Vector direction) {
+  for (std::size_t k = 0; k < count_; k += lanes)
+    store(angle_ahead<Pack>(direction, load(&start_x_[k]), load(&start_y_[k])), &values_[k]);
+  return least_of_values();
+}
+
+ArcFinder::Place ArcFinder::farthest_with_direction(Place k, const std::vector<double>& x,
+                                                    const std::vector<double>& y) const {
+  const Pack wanted_x = x[k], wanted_y = y[k];
+  Place farthest = k;
+  for (std::size_t j = 0; j < count_; j += lanes) {
+    const Pack here_x = load(&x[j]), here_y = load(&y[j]);
+    const auto is_same = abs(here_x * wanted_y - here_y * wanted_x) <= Pack(angle_tolerance) &&
+                         here_x * wanted_x + here_y * wanted_y > Pack(0.0);
+    if (none_of(is_same)) continue;
+    for (std::size_t lane = 0; lane < std::min(lanes, count_ - j); ++lane)
+      if (is_same[lane] && is_farther(j + lane, farthest)) farthest = j + lane;
+  }
+  return farthest;
+}
+
+ArcFinder::Place ArcFinder::farthest_with_end_of(Place k) const {
+  return farthest_with_direction(k, end_x_, end_y_);
+}
+
+ArcFinder::Place ArcFinder::farthest_with_start_of(Place k) const {
+  return farthest_with_direction(k, start_x_, start_y_);
+}
+
+void ArcFinder::append_arcs(std::int64_t particle, std::vector<Arc>& arcs) {
+  if (count_ == 0) {
     arcs.push_back({particle, particle, particle, {1.0, 0.0}, {1.0, 0.0}});
     return;
   }
-  // Where covers begin or end together, the one of the farthest neighbour is at the gap: just outside the circle, the
-  // others lie behind it. That neighbour sees it the same way, so the arcs of both fit together.
-  const auto is_outermost = [](const Cover& a, const Cover& b) {
-    return a.squared_distance != b.squared_distance ? a.squared_distance > b.squared_distance
-                                                    : a.neighbour < b.neighbour;
-  };
-  const auto nearest = std::min_element(covers_.begin(), covers_.end(), [](const Cover& a, const Cover& b) {
-    return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
-                                                    : a.neighbour < b.neighbour;
-  });
-  const Vector origin = nearest->end;
+  find_covers();
+  Place reached = nearest();  // the last one whose cover the walk went to the end of
+  const Vector origin = end_of(reached);
   Vector direction = origin;
   double remaining = full_turn;
-  for (std::size_t step = 0; step <= 2 * covers_.size(); ++step) {
-    if (const Cover* cover = farthest_reaching(direction)) {
-      if (angle_ahead(direction, cover->end) >= remaining - angle_tolerance) return;
-      direction = cover->end;
+  for (std::size_t step = 0; step <= 2 * count_; ++step) {
+    if (const Place cover = farthest_reaching(direction); cover < count_) {
+      if (angle_ahead(direction, end_of(cover)) >= remaining - angle_tolerance) return;
+      reached = cover;
+      direction = end_of(cover);
     } else {
-      const Cover* next = nullptr;
-      double gap = full_turn;
-      for (const Cover& candidate : covers_) {
-        const double ahead = angle_ahead(direction, candidate.start);
-        if (next == nullptr || ahead < gap) {
-          next = &candidate;
-          gap = ahead;
-        }
-      }
-      const Cover* previous = nullptr;
-      const Vector gap_end = next->start;
-      for (const Cover& candidate : covers_) {
-        if (same_direction(candidate.end, direction) && (previous == nullptr || is_outermost(candidate, *previous)))
-          previous = &candidate;
-        if (same_direction(candidate.start, gap_end) && is_outermost(candidate, *next)) next = &candidate;
-      }
-      arcs.push_back({particle, previous->neighbour, next->neighbour, previous->end, next->start});
-      direction = next->start;
+      // Where covers begin or end together, the one of the farthest neighbour is at the gap: just outside the circle,
+      // the others lie behind it. That neighbour sees it the same way, so the arcs of both fit together.
+      const Place previous = farthest_with_end_of(reached);
+      const Place next = farthest_with_start_of(first_to_start(direction));
+      arcs.push_back({particle, neighbours_[previous], neighbours_[next], end_of(previous), start_of(next)});
+      direction = start_of(next);
     }
     remaining = angle_ahead(direction, origin);
   }

@@ -2,6 +2,7 @@
 // Which particles lie on the liquid's boundary, and which part of it each one holds (Sec 2.5; Dilts 2000).
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,49 +34,53 @@ class ArcFinder {
   void find(std::int64_t particle, Vector centre, std::span<const std::int64_t> neighbour_ids,
             std::span<const Vector> neighbour_positions, std::vector<Arc>& arcs);
 
-  /// A cheap test: true if there are near ones among `neighbour_positions` in all directions, so that they cover the
-  /// whole circle; then the particle has no arcs, whatever other neighbours it has. The kernel's own neighbours are
-  /// enough to sort out nearly all interior particles. False says nothing.
-  bool is_covered_by(Vector centre, std::span<const Vector> neighbour_positions) const;
-
-  /// The same in parts, for whoever goes through the neighbours anyway: the bit of the octant of directions that holds
-  /// a neighbour, 0 if it is not nearer than near_reach(), and whether the bits of all neighbours cover the circle.
-  unsigned octant_of_near(Vector separation) const {
-    const double squared_distance = squared_length(separation);
-    const bool is_near = squared_distance < near_squared_distance_ && squared_distance > 0.0;
-    const bool left = separation.x < 0.0;
-    const bool below = separation.y < 0.0;
-    const bool steep = std::abs(separation.y) > std::abs(separation.x);
-    const unsigned octant = 4U * below + 2U * (left != below) + 1U * ((left != below) != steep);  // counterclockwise
-    return static_cast<unsigned>(is_near) << octant;
+  /// The same in parts, for whoever goes through the neighbours anyway: for a new particle; a neighbour, from the
+  /// particle to it (m, not zero), with the square of its distance (m2), below squared_reach(); and the arcs.
+  void start() { count_ = 0; }
+  void add(Vector separation, double squared_distance, std::int64_t neighbour) {
+    if (count_ == neighbours_.size()) make_room();
+    separation_x_[count_] = separation.x;
+    separation_y_[count_] = separation.y;
+    squared_distances_[count_] = squared_distance;
+    neighbours_[count_] = neighbour;
+    ++count_;
   }
-  /// A near neighbour covers more than an octant and a half to either side. Where no two octants in a row are empty,
-  /// such neighbours are at most three octants apart and leave no gap.
-  static bool covers_circle(unsigned octants) {
-    const unsigned twice_round = octants | octants << 8U;
-    return ((twice_round | twice_round >> 1U) & 0xFFU) == 0xFFU;
-  }
-  /// m
-  double near_reach() const { return std::sqrt(near_squared_distance_); }
+  void append_arcs(std::int64_t particle, std::vector<Arc>& arcs);
+  /// (4h)^2, a little less: circles that only touch cover nothing. m2.
+  double squared_reach() const { return largest_squared_distance_; }
 
  private:
-  /// The part of the particle's circle that one neighbour covers: counterclockwise from start to end, under half a
-  /// turn.
-  struct Cover {
-    Vector start, end;
-    double squared_distance;
-    std::int64_t neighbour;
-  };
+  /// A neighbour, by its place among those added.
+  using Place = std::size_t;
 
-  Cover cover_by(Vector separation, double squared_distance, std::int64_t neighbour) const;
-  const Cover* farthest_reaching(Vector direction) const;
-  void append_uncovered(std::int64_t particle, std::vector<Arc>& arcs) const;
+  void make_room();
+  void find_covers();
+  Vector start_of(Place k) const { return {start_x_[k], start_y_[k]}; }
+  Vector end_of(Place k) const { return {end_x_[k], end_y_[k]}; }
+  bool is_farther(Place a, Place b) const;
+  /// That with the least of values_, the lowest particle of several.
+  Place least_of_values() const;
+  Place nearest();
+  /// Whose cover `direction` is in and goes on farthest from there; count_ if none goes on.
+  Place farthest_reaching(Vector direction);
+  /// Whose cover starts first, counterclockwise from `direction`.
+  Place first_to_start(Vector direction);
+  /// The farthest of those whose covers end, or start, where that of `k` does.
+  Place farthest_with_end_of(Place k) const;
+  Place farthest_with_start_of(Place k) const;
+  Place farthest_with_direction(Place k, const std::vector<double>& x, const std::vector<double>& y) const;
 
-  double largest_squared_distance_;  ///< (4h)^2, a little less: circles that only touch cover nothing
-  double near_squared_distance_;     ///< nearer ones cover at least 67.5 degrees to either side: r < 2R cos 67.5
-  double inverse_diameter_;          ///< 1/(4h)
+  double largest_squared_distance_;
+  double inverse_diameter_;  ///< 1/(4h)
   double inverse_squared_diameter_;
-  std::vector<Cover> covers_;  ///< scratch: of the particle at hand
+
+  // Of the particle at hand, by neighbour; the part of its circle that a neighbour covers runs counterclockwise from
+  // start to end, under half a turn. Whole vectors, of which those that count_ leaves open repeat the last neighbour.
+  std::size_t count_ = 0;
+  std::vector<std::int64_t> neighbours_;
+  std::vector<double> separation_x_, separation_y_, squared_distances_;
+  std::vector<double> start_x_, start_y_, end_x_, end_y_;
+  std::vector<double> values_;  ///< scratch
 };
 
 }  // namespace sphdrop

@@ -15,44 +15,58 @@ namespace sphdrop {
 /// a_i += F_s W_is / (m_i sum_j W_js) (32, 33). The candidates of each point are found once and kept while the
 /// particles move a little.
 ///
-/// The sums are in ascending order of the candidates' indices, and over the points in the order of the curves: where
-/// indices ascend with global ids, the result depends on nothing else, neither on the vectors' width.
+/// The sums are in the order in which rebuild() is told of the particles, and over the points in the order of the
+/// curves: where the one is that of global ids, the result depends on nothing else, neither on the vectors' width.
 class ForceSharing {
  public:
   /// Finds for every node the particles within `reach` (m) of `centres`, by node: the surface points, with reach = 2h
   /// plus what a point and a particle may move towards each other until the next rebuild; or the nodes' particles, with
-  /// d/2 more. x, y: of all particles that may take part. All in m.
-  void rebuild(std::span<const Vector> centres, std::span<const double> x, std::span<const double> y, double reach);
+  /// d/2 more. x, y (m) and masses (kg/m): of all particles that may take part; `order`: their indices, each once.
+  void rebuild(std::span<const Vector> centres, std::span<const double> x, std::span<const double> y,
+               std::span<const double> masses, std::span<const std::int32_t> order, double reach);
+
+  /// Of one more place that x and y hold for share(), m: its square is still finite, its distance from anything beyond
+  /// any kernel's support.
+  static constexpr double far_away = 1e150;
 
   /// Adds the accelerations (m/s2) to x and y components. points (m) and forces (N/m): by node; the other arrays by
-  /// particle, as in rebuild; masses in kg/m. Returns the number of points with no particle within 2h, whose force is
-  /// lost.
+  /// particle, as in rebuild, but for the place far_away at the end of x and y. Returns the number of points with no
+  /// particle within 2h, whose force is lost.
   std::size_t share(std::span<const Vector> points, std::span<const Vector> forces, std::span<const double> x,
-                    std::span<const double> y, std::span<const double> masses, const SmoothingKernel& kernel,
-                    std::span<double> acceleration_x, std::span<double> acceleration_y);
+                    std::span<const double> y, const SmoothingKernel& kernel, std::span<double> acceleration_x,
+                    std::span<double> acceleration_y);
 
-  /// All particles that are a candidate of some point, ascending.
+  /// All particles that are a candidate of some point, in the order given.
   std::span<const std::int32_t> particles() const { return particles_; }
 
  private:
-  void copy_candidates(std::span<const double> x, std::span<const double> y, std::span<const double> masses);
+  void place_in_slices();
   template <class Kernel>
-  void evaluate_kernel(std::span<const Vector> points, std::span<const Vector> forces, const Kernel& kernel);
+  void evaluate_kernel(std::span<const Vector> points, std::span<const Vector> forces, std::span<const double> x,
+                       std::span<const double> y, const Kernel& kernel);
   void sum_over_points();
 
+  struct Pair {
+    std::int32_t node, candidate;
+  };
+  std::vector<Pair> pairs_;  ///< scratch: particle after particle, so that each node's are in the order given
+
   // Nodes go in slices, one node a lane of a vector; the candidates at the same place in their lists lie side by side.
-  // Shorter lists are filled up with a particle so far away that its W is an exact zero.
+  // In a slice are nodes of nearly as many candidates each. Shorter lists are filled up with a particle so far away
+  // that its W is an exact zero.
+  std::vector<std::int32_t> node_of_lane_;     ///< [slice][lane]
   std::vector<std::int32_t> slice_start_;      ///< first entry of each slice, and their number
+  std::vector<std::int32_t> slice_end_;        ///< where W is evaluated up to; then W stays zero
+  std::vector<std::int32_t> first_entry_;      ///< by node
   std::vector<std::int32_t> candidate_count_;  ///< by node
-  std::vector<std::int32_t> candidates_;       ///< indices into particles_
+  std::vector<std::int32_t> candidates_;
   std::vector<std::int32_t> particles_;
 
-  // Scratch, by entry of candidates_, by node, and by entry of particles_.
+  // Scratch, by entry of candidates_, by node, and by particle.
   std::vector<double> weights_;
   std::vector<Vector> force_per_weight_;
-  std::vector<double> candidate_x_ = {0.0}, candidate_y_ = {0.0};  // with the far-away one at the end
   std::vector<double> inverse_mass_;
-  std::vector<Vector> shares_;
+  std::vector<Vector> shares_;  // and for the far-away place
   std::size_t points_without_particles_ = 0;
 };
 

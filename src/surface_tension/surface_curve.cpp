@@ -94,7 +94,7 @@ SurfaceCurves connect_arcs(std::span<const Arc> arcs, std::span<const Vector> ce
     if (is_placed[first]) continue;
     for (std::size_t k = first; !is_placed[k]; k = successor[k]) {
       is_placed[k] = true;
-      curves.nodes.push_back({arcs[order[k]].particle, middle_direction(arcs[order[k]])});
+      curves.nodes.push_back({arcs[order[k]].particle, middle_direction(arcs[order[k]]), centres[order[k]]});
     }
     curves.curve_start.push_back(static_cast<std::int32_t>(curves.nodes.size()));
   }

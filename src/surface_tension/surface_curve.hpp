@@ -18,6 +18,7 @@ struct SurfaceCurves {
   struct Node {
     std::int64_t particle;  ///< global id
     Vector arc_direction;   ///< unit vector to the middle of the arc: the outward normal where a curve turns back
+    Vector centre{};        ///< where the particle was, m
   };
   /// The nodes first to last - 1 of a curve, as indices into `nodes`; after the last comes the first again.
   struct Range {

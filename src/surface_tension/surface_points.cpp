@@ -25,10 +25,11 @@ void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_po
   }
 }
 
-void surface_velocities(const SurfaceCurves& curves, std::span<const Vector> node_positions,
-                        std::span<const Vector> node_velocities, double spacing, std::span<Vector> velocities) {
+void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_positions,
+                    std::span<const Vector> node_velocities, double spacing, std::span<Vector> points,
+                    std::span<Vector> velocities) {
   assert(node_positions.size() == curves.nodes.size() && node_velocities.size() == curves.nodes.size());
-  assert(velocities.size() == curves.nodes.size());
+  assert(points.size() == curves.nodes.size() && velocities.size() == curves.nodes.size());
   const double offset = 0.5 * spacing;
   for (std::size_t c = 0; c < curves.size(); ++c) {
     const SurfaceCurves::Range curve = curves.curve(c);
@@ -37,12 +38,16 @@ void surface_velocities(const SurfaceCurves& curves, std::span<const Vector> nod
       const std::size_t next = curve.next(k);
       const Vector chord = node_positions[next] - node_positions[previous];
       const double squared_chord = squared_length(chord);
+      Vector normal = curves.nodes[k].arc_direction;
       velocities[k] = node_velocities[k];
       // The normal turns as the chord does: d/2 dn/dt = d/2 (chord x chord's rate)/chord^2 along the chord.
       if (squared_chord > 0.0) {
+        const double chord_length = std::sqrt(squared_chord);
         const double turning = cross(chord, node_velocities[next] - node_velocities[previous]) / squared_chord;
-        velocities[k] += (offset * turning / std::sqrt(squared_chord)) * chord;
+        normal = right_normal(chord) / chord_length;
+        velocities[k] += (offset * turning / chord_length) * chord;
       }
+      points[k] = node_positions[k] + offset * normal;
       previous = k;
     }
   }

@@ -14,9 +14,10 @@ namespace sphdrop {
 void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_positions, double spacing,
                     std::span<Vector> points);
 
-/// How fast these points move with their particles: ds_k/dt = v_k + dn_k/dt d/2, which the neighbours on the curve
-/// turn; v_k alone where the two are the same particle. node_velocities and velocities by node, m/s.
-void surface_velocities(const SurfaceCurves& curves, std::span<const Vector> node_positions,
-                        std::span<const Vector> node_velocities, double spacing, std::span<Vector> velocities);
+/// The points, and how fast they move with their particles: ds_k/dt = v_k + dn_k/dt d/2, which the neighbours on the
+/// curve turn; v_k alone where the two are the same particle. node_velocities and velocities by node, m/s.
+void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_positions,
+                    std::span<const Vector> node_velocities, double spacing, std::span<Vector> points,
+                    std::span<Vector> velocities);
 
 }  // namespace sphdrop

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <vector>
 
+#include "surface_tension/arc_search.hpp"
 #include "surface_tension/boundary_detection.hpp"
 #include "surface_tension/force_sharing.hpp"
 #include "surface_tension/surface_curve.hpp"
@@ -26,9 +28,10 @@ constexpr double reach = circle_radius + 0.2 * spacing;
 struct Drop {
   std::vector<std::int64_t> ids;
   std::vector<Vector> positions;
+  std::vector<std::int32_t> order;
   std::vector<double> x, y, masses, acceleration_x, acceleration_y;
   std::vector<std::vector<std::int64_t>> ids_nearby;  // within 4h, by particle
-  std::vector<std::vector<Vector>> nearby, in_kernel;
+  std::vector<std::vector<Vector>> nearby;
   std::vector<Arc> arcs;
   std::vector<Vector> arc_centres;
   SurfaceCurves curves;
@@ -52,18 +55,18 @@ struct Drop {
       y.push_back(position.y);
       masses.push_back(1000.0 * spacing * spacing);
     }
+    order.resize(x.size());
+    std::iota(order.begin(), order.end(), 0);
     acceleration_x.resize(x.size());
     acceleration_y.resize(x.size());
     for (const Vector centre : positions) {
       ids_nearby.emplace_back();
       nearby.emplace_back();
-      in_kernel.emplace_back();
       for (std::size_t j = 0; j < positions.size(); ++j) {
         const double distance = length(positions[j] - centre);
         if (distance > 2.0 * circle_radius || distance == 0.0) continue;
         ids_nearby.back().push_back(ids[j]);
         nearby.back().push_back(positions[j]);
-        if (distance < circle_radius) in_kernel.back().push_back(positions[j]);
       }
     }
     ArcFinder finder(circle_radius);
@@ -96,19 +99,20 @@ void detection(benchmark::State& state) {
 }
 BENCHMARK(detection)->Unit(benchmark::kMicrosecond);
 
-void detection_after_kernel_neighbours(benchmark::State& state) {
+// As a run does it: of all particles together.
+void search(benchmark::State& state) {
   Drop drop;
-  ArcFinder finder(circle_radius);
+  ArcSearch finder(circle_radius);
+  std::vector<Vector> centres;
   for (auto _ : state) {
     drop.arcs.clear();
-    for (std::size_t i = 0; i < drop.ids.size(); ++i)
-      if (!finder.is_covered_by(drop.positions[i], drop.in_kernel[i]))
-        finder.find(drop.ids[i], drop.positions[i], drop.ids_nearby[i], drop.nearby[i], drop.arcs);
+    centres.clear();
+    finder.find(drop.x, drop.y, drop.ids, drop.ids.size(), drop.arcs, centres);
     benchmark::DoNotOptimize(drop.arcs.data());
   }
   drop.report(state);
 }
-BENCHMARK(detection_after_kernel_neighbours)->Unit(benchmark::kMicrosecond);
+BENCHMARK(search)->Unit(benchmark::kMicrosecond);
 
 void connection(benchmark::State& state) {
   Drop drop;
@@ -151,7 +155,7 @@ void candidates(benchmark::State& state) {
   Drop drop;
   ForceSharing sharing;
   for (auto _ : state) {
-    sharing.rebuild(drop.points, drop.x, drop.y, reach);
+    sharing.rebuild(drop.points, drop.x, drop.y, drop.masses, drop.order, reach);
     benchmark::ClobberMemory();
   }
   drop.report(state);
@@ -161,11 +165,12 @@ BENCHMARK(candidates)->Unit(benchmark::kMicrosecond);
 void sharing(benchmark::State& state) {
   Drop drop;
   ForceSharing sharing;
-  sharing.rebuild(drop.points, drop.x, drop.y, reach);
+  sharing.rebuild(drop.points, drop.x, drop.y, drop.masses, drop.order, reach);
   const CubicSpline kernel(smoothing_length);
+  for (auto* column : {&drop.x, &drop.y}) column->push_back(ForceSharing::far_away);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(sharing.share(drop.points, drop.forces, drop.x, drop.y, drop.masses, kernel,
-                                           drop.acceleration_x, drop.acceleration_y));
+    benchmark::DoNotOptimize(
+        sharing.share(drop.points, drop.forces, drop.x, drop.y, kernel, drop.acceleration_x, drop.acceleration_y));
     benchmark::ClobberMemory();
   }
   drop.report(state);

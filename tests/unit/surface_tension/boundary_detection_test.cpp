@@ -210,55 +210,5 @@ TEST(BoundaryDetection, OfCoincidentParticlesOnlyTheLowestHasArcs) {
   }
 }
 
-TEST(BoundaryDetection, CheapTestSortsOutTheInteriorAndNoBoundaryParticle) {
-  const ArcFinder finder(circle_radius);
-  const Positions lattice_places = lattice_disc(10.0);
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    Positions positions = lattice_places;
-    jitter(positions, 0.01 * seed * spacing, seed);
-    const auto found = particles_of(arcs_of(positions));
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      const bool covered = finder.is_covered_by(positions[i], positions);
-      EXPECT_FALSE(covered && found.contains(static_cast<std::int64_t>(i))) << i;
-      if (length(lattice_places[i]) < 8.0 * spacing) {
-        EXPECT_TRUE(covered) << i;
-      }
-    }
-  }
-}
-
-TEST(BoundaryDetection, CheapTestIsNeverMistaken) {
-  // Few neighbours at random, so that gaps of every width occur; the answer is checked against sampled directions.
-  const ArcFinder finder(circle_radius);
-  int covered = 0;
-  for (unsigned seed = 0; seed < 3000; ++seed) {
-    Positions positions(9);
-    jitter(positions, 1.5 * spacing, seed);
-    positions[0] = {};
-    if (!finder.is_covered_by(positions[0], positions)) continue;
-    ++covered;
-    for (int k = 0; k < 90; ++k)
-      EXPECT_GT(depth_of_cover(positions, 0, 2.0 * std::numbers::pi * k / 90, circle_radius), 0.0) << seed;
-  }
-  EXPECT_GT(covered, 300);
-}
-
-TEST(BoundaryDetection, CheapTestHoldsForTheWidestGapsItAccepts) {
-  // Every other octant holds a neighbour, and of two gaps one is nearly three octants wide.
-  const ArcFinder finder(circle_radius);
-  for (const double distance : {0.1, 0.5, 0.76}) {
-    Positions positions = {{0.0, 0.0}};
-    for (const double degrees : {0.1, 134.9, 180.1, 314.9}) {
-      const double angle = degrees * std::numbers::pi / 180.0;
-      positions.push_back(distance * circle_radius * Vector{std::cos(angle), std::sin(angle)});
-    }
-    EXPECT_TRUE(finder.is_covered_by(positions[0], positions));
-    for (int k = 0; k < 720; ++k)
-      EXPECT_GT(depth_of_cover(positions, 0, std::numbers::pi * k / 360, circle_radius), 0.0) << distance << ' ' << k;
-    for (Vector& position : positions) position = (0.8 / distance) * position;
-    EXPECT_FALSE(finder.is_covered_by(positions[0], positions));
-  }
-}
-
 }  // namespace
 }  // namespace sphdrop

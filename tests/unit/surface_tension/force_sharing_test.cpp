@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <random>
 
 #include "drops.hpp"
 #include "surface_tension/surface_force.hpp"
@@ -35,8 +38,19 @@ struct Drop {
     acceleration_y.assign(x.size(), 0.0);
   }
 
+  /// With the particles in ascending order, if no other is given.
+  void rebuild(ForceSharing& sharing, std::vector<std::int32_t> order = {}) const {
+    if (order.empty()) {
+      order.resize(x.size());
+      std::iota(order.begin(), order.end(), 0);
+    }
+    sharing.rebuild(nodes, x, y, masses, order, reach);
+  }
   std::size_t share(ForceSharing& sharing) {
-    return sharing.share(points, forces, x, y, masses, CubicSpline(smoothing_length), acceleration_x, acceleration_y);
+    std::vector<double> ended_x = x, ended_y = y;
+    for (auto* ended : {&ended_x, &ended_y}) ended->push_back(ForceSharing::far_away);
+    return sharing.share(points, forces, ended_x, ended_y, CubicSpline(smoothing_length), acceleration_x,
+                         acceleration_y);
   }
 };
 
@@ -84,7 +98,7 @@ TEST(ForceSharing, HasTheBitsOfTheScalarSumOverAllParticles) {
     Drop expected = drop;
     share_over_all(expected);
     ForceSharing sharing;
-    sharing.rebuild(drop.nodes, drop.x, drop.y, reach);
+    drop.rebuild(sharing);
     EXPECT_EQ(drop.share(sharing), 0U);
     EXPECT_TRUE(same_bits(drop.acceleration_x, expected.acceleration_x)) << seed;
     EXPECT_TRUE(same_bits(drop.acceleration_y, expected.acceleration_y)) << seed;
@@ -96,7 +110,7 @@ TEST(ForceSharing, GivesTheWholeForceToTheParticles) {
   Drop drop(jittered_disc(15.0, 4));
   for (std::size_t k = 0; k < drop.forces.size(); ++k) drop.forces[k] += {1e-3, 2e-3};  // so that the sum is not zero
   ForceSharing sharing;
-  sharing.rebuild(drop.nodes, drop.x, drop.y, reach);
+  drop.rebuild(sharing);
   drop.share(sharing);
   Vector given, received;
   double size = 0.0;
@@ -114,7 +128,7 @@ TEST(ForceSharing, HoldsUntilParticlesHaveMovedThroughTheMargin) {
   Positions positions = jittered_disc(10.0, 6);
   Drop before(positions);
   ForceSharing sharing;
-  sharing.rebuild(before.nodes, before.x, before.y, reach);
+  before.rebuild(sharing);
 
   jitter(positions, 0.03 * spacing, 60);  // twice this is within the margin
   Drop after = before;
@@ -131,14 +145,44 @@ TEST(ForceSharing, HoldsUntilParticlesHaveMovedThroughTheMargin) {
   EXPECT_FALSE(same_bits(after.acceleration_x, before.acceleration_x));
 }
 
+TEST(ForceSharing, DependsOnTheOrderGivenAndNotOnWhereParticlesLie) {
+  Drop drop(jittered_disc(9.0, 8));
+  Drop expected = drop;
+  share_over_all(expected);
+  // They lie shuffled; in the order given they are as they were.
+  std::vector<std::int32_t> place(drop.x.size());
+  std::iota(place.begin(), place.end(), 0);
+  std::shuffle(place.begin(), place.end(), std::mt19937(3));
+  const Drop sorted = drop;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const auto k = static_cast<std::size_t>(place[i]);
+    drop.x[k] = sorted.x[i];
+    drop.y[k] = sorted.y[i];
+    drop.masses[k] = sorted.masses[i];
+  }
+  ForceSharing sharing;
+  drop.rebuild(sharing, place);
+  drop.share(sharing);
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const auto k = static_cast<std::size_t>(place[i]);
+    EXPECT_EQ(drop.acceleration_x[k], expected.acceleration_x[i]) << i;
+    EXPECT_EQ(drop.acceleration_y[k], expected.acceleration_y[i]) << i;
+  }
+  Drop other = sorted;
+  std::reverse(place.begin(), place.end());
+  other.rebuild(sharing, place);
+  other.share(sharing);
+  EXPECT_FALSE(same_bits(other.acceleration_x, expected.acceleration_x));
+}
+
 TEST(ForceSharing, DoesNotDependOnEarlierUse) {
   ForceSharing used;
   Drop large(jittered_disc(12.0, 1));
-  used.rebuild(large.nodes, large.x, large.y, reach);
+  large.rebuild(used);
   large.share(used);
   Drop drop(jittered_disc(5.0, 2));
   Drop expected = drop;
-  used.rebuild(drop.nodes, drop.x, drop.y, reach);
+  drop.rebuild(used);
   drop.share(used);
   share_over_all(expected);
   EXPECT_TRUE(same_bits(drop.acceleration_x, expected.acceleration_x));
@@ -150,7 +194,7 @@ TEST(ForceSharing, CountsPointsWithoutParticles) {
     if (k != 5) drop.forces[k] = {};
   drop.points[5] = {1.0, 1.0};
   ForceSharing sharing;
-  sharing.rebuild(drop.nodes, drop.x, drop.y, reach);
+  drop.rebuild(sharing);
   EXPECT_EQ(drop.share(sharing), 1U);
   for (const double a : drop.acceleration_x) EXPECT_EQ(a, 0.0);
 }
@@ -159,7 +203,7 @@ TEST(ForceSharing, OfNothingDoesNothing) {
   ForceSharing sharing;
   Drop drop(Positions{});
   EXPECT_EQ(drop.share(sharing), 0U);
-  sharing.rebuild(drop.nodes, drop.x, drop.y, reach);
+  drop.rebuild(sharing);
   EXPECT_EQ(drop.share(sharing), 0U);
 }
 
@@ -185,7 +229,9 @@ TEST(ForceSharing, ListsExactlyTheParticlesWithinReach) {
     y.push_back(position.y);
   }
   ForceSharing sharing;
-  sharing.rebuild(nodes, x, y, reach);
+  std::vector<std::int32_t> order(x.size());
+  std::iota(order.begin(), order.end(), 0);
+  sharing.rebuild(nodes, x, y, std::vector<double>(x.size(), 1.0), order, reach);
   EXPECT_EQ((std::vector<std::int32_t>(sharing.particles().begin(), sharing.particles().end())), expected);
 }
 

@@ -84,7 +84,10 @@ TEST(SurfaceVelocities, AreTheRatesOfThePoints) {
       const auto id = static_cast<double>(curves.nodes[k].particle);
       rates[k] = {std::sin(3.0 * id) + 0.2, std::cos(5.0 * id) - 0.4};
     }
-    surface_velocities(curves, nodes, rates, spacing, found);
+    Positions points(nodes.size()), points_alone(nodes.size());
+    surface_points(curves, nodes, rates, spacing, points, found);
+    surface_points(curves, nodes, spacing, points_alone);
+    EXPECT_EQ(points, points_alone);
     const double step = 1e-5 * spacing;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       earlier[k] = nodes[k] - step * rates[k];

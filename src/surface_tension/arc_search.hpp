@@ -1,0 +1,48 @@
+#pragma once
+// The arcs of the liquid's boundary among many particles (Sec 2.5).
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/vector.hpp"
+#include "sph/cell_grid.hpp"
+#include "surface_tension/boundary_detection.hpp"
+
+namespace sphdrop {
+
+/// Looks for the arcs of ArcFinder among particles that are all given together. Those inside are sorted out first, by
+/// NearDirections.
+class ArcSearch {
+ public:
+  /// radius: R = 2h, m.
+  explicit ArcSearch(double radius);
+
+  /// Appends the arcs of the first `searched` particles, and for each where its particle is (m), in no order but that
+  /// arcs of a particle follow one another as ArcFinder finds them. Shapes of x, y (m) and ids: [n]; among them must be
+  /// all particles within 4h of those searched.
+  void find(std::span<const double> x, std::span<const double> y, std::span<const std::int64_t> ids,
+            std::size_t searched, std::vector<Arc>& arcs, std::vector<Vector>& centres);
+
+ private:
+  void sort_by_cell(const CellGrid& grid, std::span<const double> x, std::span<const double> y,
+                    std::span<const std::int64_t> ids, std::size_t searched);
+  void find_open(const CellGrid& grid);
+  void find_arcs_of(const CellGrid& grid, std::size_t place, std::vector<Arc>& arcs);
+
+  double radius_;
+  double near_reach_, reach_;  // m, of cells
+  ArcFinder finder_;
+
+  // The particles in the order of their cells, and some more that are far away, to fill up the last vector.
+  std::vector<double> x_, y_;
+  std::vector<std::int64_t> ids_;
+  std::vector<char> is_searched_;
+  std::vector<std::size_t> open_;  // places of those that are not surely inside
+  // Of the neighbours of one particle.
+  std::vector<double> squared_distances_;
+  std::vector<std::size_t> candidates_;
+};
+
+}  // namespace sphdrop
