@@ -19,8 +19,8 @@ class Pieces {
  public:
   Pieces() = default;
   // One piece is what most columns are.
-  Pieces(std::span<const T> values) { add(values); }     // NOLINT(google-explicit-constructor)
-  Pieces(const std::vector<T>& values) { add(values); }  // NOLINT(google-explicit-constructor)
+  Pieces(std::span<const T> values) { add(values); }
+  Pieces(const std::vector<T>& values) { add(values); }
   Pieces(std::vector<T>&&) = delete;
 
   void add(std::span<const T> values) {
