@@ -18,7 +18,7 @@ namespace {
 struct Loads {
   std::int32_t drop, solid;
 };
-constexpr Loads loads_with_liquid{21, 20}, loads_with_rigid_drop{1, 20};
+constexpr Loads loads_with_liquid{11, 10}, loads_with_rigid_drop{1, 20};
 // Cells are far cheaper.
 constexpr Loads cells_with_liquid{8, 1}, cells_with_rigid_drop{1, 2};
 
