@@ -26,8 +26,8 @@ FOLDER = Path(__file__).resolve().parent
 PAGE = FOLDER.parent / "SCALING.md"
 
 LIST_REACH = 2.7  # 2h + skin with h = 1.2 d, skin = 0.3 d
-BAND = 3.3  # rows of liquid that surface points act on, along the curve: 2h + 0.7 d, and half a row
-PERIMETER = 4.83  # of a part, over the square root of its particles: fit(); a square's is 4
+BAND = 2.6  # rows of liquid that surface points act on, along the curve: 2h + 0.2 d
+PERIMETER = 4.85  # of a part, over the square root of its particles: fit(); a square's is 4
 COLUMN_BYTES = 8
 HALO_COLUMNS = 5  # position, velocity, density
 GATHERED_COLUMNS, RETURNED_COLUMNS = 4, 2  # positions and velocities to the interface's owner, accelerations back
