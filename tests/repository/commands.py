@@ -53,6 +53,7 @@ TESTED: dict[str, tuple[str, str]] = {
     "build/release/src/sphdrop cases/cantilever/case.cfg --output results/cantilever --restart auto":
         ("cluster.hosts", "oob_tcp_keepalive_time"),
     "/usr/bin/python3 tests/benchmarks/scaling/model.py page": ("benchmarks.scaling_model", "test_its_tables_are_those_of_the_model"),
+    "/usr/bin/python3 tests/benchmarks/whole_program.py --repeats 3": ("benchmarks.whole_program", "test_goes_on_from_a_checkpoint_to_the_same_state_on_both_numbers_of_ranks"),
     "SPHDROP_ARCH=x86-64-v3 sphdrop --version": ("repository.instruction_sets", "SPHDROP_ARCH"),
     'cmake -G Ninja -S cases/probe -B build/probe -DCMAKE_PREFIX_PATH="$HOME/.local" && cmake --build build/probe':
         ("repository.library", "share/sphdrop/cases/probe"),
