@@ -11,6 +11,9 @@ namespace sphdrop {
 namespace {
 
 constexpr auto lanes = static_cast<std::size_t>(pack_size);
+constexpr std::size_t whole_vectors(std::size_t count) {
+  return (count + lanes - 1) / lanes * lanes;
+}
 
 /// Directions closer than this (radians) count as one. Gaps narrower are covered: on symmetric arrangements several
 /// circles meet in one point, where round-off alone decides whether there is a gap.
@@ -20,29 +23,26 @@ constexpr double full_turn = 4.0;
 constexpr double out_of_reach = 2.0;
 
 /// The angle from `from` counterclockwise to the direction (to_x, to_y), both unit vectors, as a monotone function of
-/// it that needs no trigonometry: 0 to 4 for a full turn, and equal to the angle itself where that is small. T is
-/// double or a SIMD vector.
-template <class T>
-T angle_ahead(Vector from, const T& to_x, const T& to_y) {
-  using std::experimental::where;
-  const T x = T(from.x) * to_x + T(from.y) * to_y;
-  const T y = T(from.x) * to_y - T(from.y) * to_x;
-  const auto is_left = y >= T(0.0);
-  const auto is_ahead = x >= T(0.0);
-  // By quarters y/(x + y), 1 - x/(y - x), 2 + y/(x + y), 3 + x/(x - y).
-  T quarters = 0.0, part = y, whole = x + y;
-  where(is_left && !is_ahead, quarters) = T(1.0);
-  where(!is_left && !is_ahead, quarters) = T(2.0);
-  where(!is_left && is_ahead, quarters) = T(3.0);
-  where(is_left && !is_ahead, part) = -x;
-  where(!is_left && is_ahead, part) = x;
-  where(is_left && !is_ahead, whole) = y - x;
-  where(!is_left && is_ahead, whole) = x - y;
+/// it that needs no trigonometry: 0 to 4 for a full turn, and equal to the angle itself where that is small.
+double angle_ahead(Vector from, double to_x, double to_y) {
+  const double x = from.x * to_x + from.y * to_y;
+  const double y = from.x * to_y - from.y * to_x;
+  const bool is_left = y >= 0.0;
+  const bool is_ahead = x >= 0.0;
+  // By quarters y/(x + y), 1 - x/(y - x), 2 + y/(x + y), 3 + x/(x - y); without branches, so that a compiler can do
+  // several at a time.
+  const double quarters = is_left ? (is_ahead ? 0.0 : 1.0) : (is_ahead ? 3.0 : 2.0);
+  const double part = is_left ? (is_ahead ? y : -x) : (is_ahead ? x : y);
+  const double whole = is_left ? (is_ahead ? x + y : y - x) : (is_ahead ? x - y : x + y);
   return quarters + part / whole;
 }
 
 double angle_ahead(Vector from, Vector to) {
   return angle_ahead(from, to.x, to.y);
+}
+
+bool same_direction(Vector a, Vector b) {
+  return std::abs(cross(a, b)) <= angle_tolerance && dot(a, b) > 0.0;
 }
 
 }  // namespace
@@ -110,53 +110,43 @@ ArcFinder::Place ArcFinder::least_of_values() const {
   for (std::size_t k = lanes; k < count_; k += lanes) least_of_lane = min(least_of_lane, load(&values_[k]));
   const double least = hmin(least_of_lane);
   Place best = count_;
-  for (std::size_t k = 0; k < count_; k += lanes) {
-    if (none_of(load(&values_[k]) == Pack(least))) continue;
-    for (std::size_t lane = k; lane < std::min(k + lanes, count_); ++lane)
-      if (values_[lane] == least && (best == count_ || neighbours_[lane] < neighbours_[best])) best = lane;
-  }
+  for (Place k = 0; k < count_; ++k)
+    if (values_[k] == least && (best == count_ || neighbours_[k] < neighbours_[best])) best = k;
   return best;
 }
 
 ArcFinder::Place ArcFinder::nearest() {
-  std::copy_n(squared_distances_.begin(), (count_ + lanes - 1) / lanes * lanes, values_.begin());
+  std::copy_n(squared_distances_.begin(), whole_vectors(count_), values_.begin());
   return least_of_values();
 }
 
 ArcFinder::Place ArcFinder::farthest_reaching(Vector direction) {
-  const Pack x = direction.x, y = direction.y;
-  bool any = false;
-  for (std::size_t k = 0; k < count_; k += lanes) {
-    const Pack start_x = load(&start_x_[k]), start_y = load(&start_y_[k]);
-    const Pack end_x = load(&end_x_[k]), end_y = load(&end_y_[k]);
-    const auto is_out =
-        start_x * y - start_y * x < Pack(-angle_tolerance) || x * end_y - y * end_x <= Pack(angle_tolerance);
-    Pack cosine = x * end_x + y * end_y;  // falls with the angle, which is below half a turn
-    where(is_out, cosine) = Pack(out_of_reach);
-    store(cosine, &values_[k]);
-    any = any || !all_of(is_out);
+  const double *start_x = start_x_.data(), *start_y = start_y_.data(), *end_x = end_x_.data(), *end_y = end_y_.data();
+  double* cosines = values_.data();  // they fall with the angle, which is below half a turn
+  for (std::size_t k = 0; k < whole_vectors(count_); ++k) {
+    const double cosine = direction.x * end_x[k] + direction.y * end_y[k];
+    const double after_start = start_x[k] * direction.y - start_y[k] * direction.x;
+    const double before_end = direction.x * end_y[k] - direction.y * end_x[k];
+    const double if_not_ended = before_end <= angle_tolerance ? out_of_reach : cosine;
+    cosines[k] = after_start < -angle_tolerance ? out_of_reach : if_not_ended;
   }
-  return any ? least_of_values() : count_;
+  const Place farthest = least_of_values();
+  return values_[farthest] < out_of_reach ? farthest : count_;
 }
 
 ArcFinder::Place ArcFinder::first_to_start(Vector direction) {
-  for (std::size_t k = 0; k < count_; k += lanes)
-    store(angle_ahead<Pack>(direction, load(&start_x_[k]), load(&start_y_[k])), &values_[k]);
+  const double *start_x = start_x_.data(), *start_y = start_y_.data();
+  double* angles = values_.data();
+  for (std::size_t k = 0; k < whole_vectors(count_); ++k) angles[k] = angle_ahead(direction, start_x[k], start_y[k]);
   return least_of_values();
 }
 
 ArcFinder::Place ArcFinder::farthest_with_direction(Place k, const std::vector<double>& x,
                                                     const std::vector<double>& y) const {
-  const Pack wanted_x = x[k], wanted_y = y[k];
+  const Vector wanted{x[k], y[k]};
   Place farthest = k;
-  for (std::size_t j = 0; j < count_; j += lanes) {
-    const Pack here_x = load(&x[j]), here_y = load(&y[j]);
-    const auto is_same = abs(here_x * wanted_y - here_y * wanted_x) <= Pack(angle_tolerance) &&
-                         here_x * wanted_x + here_y * wanted_y > Pack(0.0);
-    if (none_of(is_same)) continue;
-    for (std::size_t lane = 0; lane < std::min(lanes, count_ - j); ++lane)
-      if (is_same[lane] && is_farther(j + lane, farthest)) farthest = j + lane;
-  }
+  for (Place j = 0; j < count_; ++j)
+    if (same_direction({x[j], y[j]}, wanted) && is_farther(j, farthest)) farthest = j;
   return farthest;
 }
 

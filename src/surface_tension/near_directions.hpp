@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <experimental/simd>
-#include <limits>
 
 namespace sphdrop {
 
@@ -23,15 +22,19 @@ class NearDirections {
   static double squared_reach(double radius) { return 0.58 * radius * radius; }
 
   /// (x, y): from the particle to a neighbour, m; where it is zero, as for the particle itself, it does not count.
-  [[gnu::always_inline]] void add(T x, T y) {
-    using std::experimental::where;
-    const auto is_far = x * x + y * y >= squared_reach_;
-    where(is_far, x) = T(0.0);
-    where(is_far, y) = T(0.0);
-    upright_.add(x, y);
-    oblique_.add(x + y, y - x);
+  [[gnu::always_inline]] void add(const T& x, const T& y) {
+    using std::max;
+    // Zero if it is far; only signs matter. A mask would do, but clang 14 miscompiles those of std::experimental::simd
+    // for AVX-512.
+    const T near = max(squared_reach_ - (x * x + y * y), T(0.0));
+    upright_.add(near * x, near * y);
+    oblique_.add(near * (x + y), near * (y - x));
   }
-  auto cover_circle() const { return upright_.are_all_held() && oblique_.are_all_held(); }
+  /// Positive where they cover the circle.
+  T cover() const {
+    using std::min;
+    return min(upright_.least_held(), oblique_.least_held());
+  }
 
  private:
   /// The four quadrants about two axes. A coordinate that is zero is in none.
@@ -47,7 +50,12 @@ class NearDirections {
       third = min(third, max(x, y));
       fourth = max(fourth, min(x, down));
     }
-    auto are_all_held() const { return first > T(0.0) && second < T(0.0) && third < T(0.0) && fourth > T(0.0); }
+    /// Positive where each of them holds one.
+    T least_held() const {
+      using std::min;
+      const T minus_second = -second, minus_third = -third;
+      return min(min(first, minus_second), min(minus_third, fourth));
+    }
   };
 
   T squared_reach_;

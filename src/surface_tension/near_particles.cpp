@@ -45,10 +45,9 @@ constexpr auto lanes = static_cast<std::size_t>(pack_size);
                           least = min(least, to_x * to_x + to_y * to_y);
                         }
                       });
-    const auto is_near = least <= Pack(reach * reach);
-    if (none_of(is_near)) continue;
+    if (hmin(least) > reach * reach) continue;
     for (std::size_t lane = 0; lane < count; ++lane)
-      if (is_near[lane]) near.push_back(static_cast<std::int32_t>(first + lane));
+      if (least[lane] <= reach * reach) near.push_back(static_cast<std::int32_t>(first + lane));
   }
   return near;
 }
