@@ -52,7 +52,8 @@ def draw_panel(axes: Axes, panel: Panel, history: History) -> None:
     axes.set_ylabel(panel.label)
     axes.margins(x=0.01)
     if any(panel.curves.values()):
-        axes.legend(ncols=3, loc="lower left", bbox_to_anchor=(0, 0.99), borderaxespad=0, columnspacing=1.2, handlelength=1.4)
+        # Two columns: a third makes the axes of all panels narrow, and is cut off at the figure's edge.
+        axes.legend(ncols=2, loc="lower left", bbox_to_anchor=(0, 0.99), borderaxespad=0, columnspacing=1.2, handlelength=1.4)
 
 
 def draw_history(history: History) -> Figure | None:
@@ -62,7 +63,7 @@ def draw_history(history: History) -> Figure | None:
         return None
     columns = 2 if len(panels) > 1 else 1
     rows = -(-len(panels) // columns)
-    figure, grid = plt.subplots(rows, columns, figsize=(3.6 * columns, 2.3 * rows), sharex=True, squeeze=False,
+    figure, grid = plt.subplots(rows, columns, figsize=(3.6 * columns, 2.5 * rows), sharex=True, squeeze=False,
                                 layout="constrained")
     for axes, panel in zip(grid.flat, panels):
         draw_panel(axes, panel, history)

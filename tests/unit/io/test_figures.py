@@ -13,6 +13,7 @@ from unittest import mock
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
+import figure_history
 import figure_particles
 import figures
 import matplotlib.pyplot as plt
@@ -117,6 +118,17 @@ class Figures(unittest.TestCase):
         synthetic_run.write_run(self.directory, snapshots=5)
         snapshots = list(Run(self.directory).snapshots)
         self.assertEqual(figure_particles.most_spread(snapshots).step, 2000)
+
+    def test_legends_of_all_curves_leave_the_axes_wide(self) -> None:
+        times = np.linspace(0.0, 1e-3, 20)
+        history = {"time": times} | {name: times + 1e-3 for panel in figure_history.PANELS for name in panel.curves}
+        with plt.rc_context(figures.STYLE):
+            drawn = figure_history.draw_history(history)  # type: ignore[arg-type]
+            drawn.draw_without_rendering()
+        for axes in drawn.axes:
+            self.assertGreater(axes.get_position().width, 0.35)
+            if (legend := axes.get_legend()) is not None:
+                self.assertLess(legend.get_window_extent().x1, drawn.bbox.x1)
 
 
 if __name__ == "__main__":
