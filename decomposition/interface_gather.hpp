@@ -12,12 +12,8 @@ namespace sphdrop {
 /// The rank that holds most of something, the lowest of equals: where an interface is worked on. Collective.
 int rank_with_most(const Communicator& communicator, std::int64_t held);
 
-/// How what is gathered lies at the owner: by ascending global id, or as it arrives, which is moved as a whole and not
-/// number by number.
-enum class GatheredOrder { by_id, as_arrived };
-
 /// Rows that ranks contribute to an interface, gathered at its owner. What is computed there must not depend on who
-/// contributed what: it goes through them in ascending global id, which is the order they lie in or that of by_id().
+/// contributed what: it goes through them in ascending global id, which is the order they lie in.
 class InterfaceGather {
  public:
   InterfaceGather() = default;
@@ -25,15 +21,11 @@ class InterfaceGather {
   /// Collective. `ids` and `rows` (shape [n]): the global ids and local rows this rank contributes, in any order.
   /// The tags `tag` and `tag + 1` keep its messages apart from others in flight.
   InterfaceGather(const Communicator& communicator, std::span<const std::int64_t> ids,
-                  std::span<const std::int32_t> rows, int owner, int tag, GatheredOrder order = GatheredOrder::by_id);
+                  std::span<const std::int32_t> rows, int owner, int tag);
 
   int owner() const { return owner_; }
-  /// At the owner the gathered ids, as they lie; empty elsewhere.
+  /// At the owner the gathered ids, ascending; empty elsewhere. One that several ranks contribute is there as often.
   std::span<const std::int64_t> ids() const { return ids_; }
-  /// Their places in ascending order of the ids.
-  std::span<const std::int32_t> by_id() const { return by_id_; }
-  /// At the owner the place of `id` among them, -1 if it is not there.
-  std::int32_t index_of(std::int64_t id) const;
 
   /// The messages of a gather, and with sends and receives exchanged, of a scatter. The owner's own rows are not among
   /// them: they are copied as the gather or scatter finishes, and must stay as they are until then.
@@ -52,12 +44,9 @@ class InterfaceGather {
 
   int owner_ = 0;
   std::vector<std::int64_t> ids_;
-  std::vector<std::int32_t> by_id_;
   ExchangePlan gather_, scatter_;
-  // At the owner, of the rows it contributes itself: where they are and where they go. If these places follow one
-  // another, as they do where rows lie as they arrive, they are not looked up one by one.
+  // At the owner, of the rows it contributes itself: where they are and where they go.
   std::vector<std::int32_t> own_rows_, own_places_;
-  bool own_places_are_consecutive_ = false;
   std::vector<const void*> own_columns_;  ///< of the gather or scatter under way
 };
 

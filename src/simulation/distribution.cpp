@@ -16,7 +16,7 @@ namespace {
 // particles have no pair sums. They are numbers of the program, not of the run: times of a run would follow whatever
 // else its machine does.
 struct Loads {
-  std::int32_t drop, solid;
+  std::int32_t drop, solid;  // a node of the surface takes as long as one of the liquid, with its points and shares
 };
 constexpr Loads loads_with_liquid{11, 10}, loads_with_rigid_drop{1, 20};
 // Cells are far cheaper.
@@ -25,16 +25,16 @@ constexpr Loads cells_with_liquid{8, 1}, cells_with_rigid_drop{1, 2};
 }  // namespace
 
 Distribution::Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
-                           bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach, double surface_work)
+                           bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach)
     : communicator_(communicator),
       range_(range),
       drop_is_rigid_(drop_is_rigid),
       solid_is_total_lagrangian_(solid_is_total_lagrangian),
       solid_reach_(solid_reach),
-      surface_work_(surface_work),
       partition_(communicator, range.list_reach(), imbalance_threshold) {}
 
-bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bool force) {
+bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid,
+                                std::span<const std::int32_t> surface_rows, bool force) {
   std::vector<double> x, y;
   std::vector<std::int32_t> load;
   const auto collect = [&](const ParticleSet& set, const VectorField& place, std::int32_t cost) {
@@ -48,23 +48,12 @@ bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
                                                  : (drop_is_rigid_ ? loads_with_rigid_drop : loads_with_liquid);
   collect(fluid, fluid.position, loads.drop);
   collect(solid, solid_is_total_lagrangian_ ? solid.reference_position : solid.position, loads.solid);
-  const std::size_t particles = x.size();
-  if (surface_work_ > 0 && communicator_.size() > 1) {
-    const Seat seat = find_seat(fluid);
-    const std::int32_t work = work_of_owner(load, loads.drop);
-    if (seat.rank == communicator_.rank()) {
-      x.push_back(seat.position.x);
-      y.push_back(seat.position.y);
-      load.push_back(work);
-    }
-    partition_.update(x, y, load, force);
-    surface_owner_ = partition_.owner_of(seat.position.x, seat.position.y);
-  } else {
-    partition_.update(x, y, load, force);
-  }
+  // The liquid's come first, row after row.
+  for (const std::int32_t row : surface_rows) load[static_cast<std::size_t>(row)] += loads.drop;
+  partition_.update(x, y, load, force);
 
-  std::vector<int> destination(particles);
-  for (std::size_t k = 0; k < particles; ++k) destination[k] = partition_.owner_of(x[k], y[k]);
+  std::vector<int> destination(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) destination[k] = partition_.owner_of(x[k], y[k]);
   for (auto* places : {&x, &y}) std::vector<double>().swap(*places);
   std::vector<std::int32_t>().swap(load);
   const std::size_t fluid_rows = fluid.owned_count();
@@ -83,27 +72,6 @@ bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid, bo
     solid_ = OffsetNeighbours::build(solid, solid.position.x, solid.position.y, solid_reach_);
   has_distributed_solid_ = true;
   return solid_changes;
-}
-
-// The highest particle is on the surface whatever becomes of the drop. The owner keeps its work unless others are
-// clearly higher: on a flat drop it would go to and fro, and the particles with it.
-Distribution::Seat Distribution::find_seat(const FluidParticles& fluid) const {
-  Seat mine{{0.0, -std::numeric_limits<double>::infinity()}, communicator_.rank()};
-  fluid.for_each_owned([&](std::size_t row) {
-    if (fluid.position.y[row] > mine.position.y) mine.position = fluid.position.at(row);
-  });
-  const std::vector<Seat> all = communicator_.all_gather(std::span<const Seat>(&mine, 1));
-  const auto height = [&](const Seat& seat) {
-    return seat.position.y + (seat.rank == surface_owner_ ? 8.0 * range_.list_reach() : 0.0);
-  };
-  return *std::max_element(all.begin(), all.end(), [&](const Seat& a, const Seat& b) { return height(a) < height(b); });
-}
-
-// Short of a whole share: METIS cannot balance what outweighs one.
-std::int32_t Distribution::work_of_owner(std::span<const std::int32_t> load, std::int32_t load_of_particle) const {
-  const std::int64_t sum = communicator_.sum(std::accumulate(load.begin(), load.end(), std::int64_t{0}));
-  const double most = 0.8 * static_cast<double>(sum) / communicator_.size();
-  return static_cast<std::int32_t>(std::min(surface_work_ * load_of_particle, most));
 }
 
 // One that keeps its neighbours need not move unless the partition does.

@@ -33,16 +33,17 @@ class Distribution {
  public:
   /// The particles of a drop that is rigid have no neighbours and no ghosts. A solid that is total-Lagrangian is dealt
   /// out by its places in the undeformed body: its particles stay where they are while it moves, and its ghosts are
-  /// those within `solid_reach`, m. `surface_work`: what the owner of the liquid's surface does besides, in particles;
-  /// 0 if there is no such owner, or if it is chosen by others.
+  /// those within `solid_reach`, m.
   Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
-               bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach, double surface_work = 0);
+               bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach);
 
   /// Collective. Moves every particle to the rank that owns its place (repartitioning if the loads ask for it, or
   /// `force`), makes ghosts of what other ranks hold within reach, and lists the neighbours. Needs the state columns of
   /// owned rows; afterwards those, the constant columns and the positions of ghosts are good, everything else is not.
   /// Returns false if the solid is as it was, rows, ghosts and all, as a total-Lagrangian one mostly is.
-  bool redistribute(FluidParticles& fluid, SolidParticles& solid, bool force);
+  /// `surface_rows`: the liquid's rows of the surface's nodes, one for each, which are work besides.
+  bool redistribute(FluidParticles& fluid, SolidParticles& solid, std::span<const std::int32_t> surface_rows,
+                    bool force);
 
   ExchangePlan& fluid_halo() { return fluid_halo_; }
   ExchangePlan& solid_halo() { return solid_halo_; }
@@ -57,17 +58,13 @@ class Distribution {
   const OffsetNeighbours& solid() const { return solid_; }
   const InteractionRange& range() const { return range_; }
   const PartitionQuality& quality() const { return partition_.quality(); }
-  /// The rank whose share of particles is smaller by the surface's work; -1 if there is none.
-  int surface_owner() const { return surface_owner_; }
+  /// Appends the ranks other than this one that own something within `reach` (m) of a place, as particles were dealt
+  /// out: by the places of the liquid and of the solid, undeformed if it is total-Lagrangian.
+  void other_ranks_within(Vector place, double reach, std::vector<int>& ranks) const {
+    partition_.other_ranks_within(place.x, place.y, reach, ranks);
+  }
 
  private:
-  /// Where the surface's work is counted, and by whom.
-  struct Seat {
-    Vector position;
-    int rank;
-  };
-  Seat find_seat(const FluidParticles& fluid) const;
-  std::int32_t work_of_owner(std::span<const std::int32_t> load, std::int32_t load_of_particle) const;
   bool solid_changes_ranks(std::span<const int> destination) const;
   /// Rows near other ranks last; within the two groups by cell, so that neighbours are near in memory. Returns how many
   /// are not near others.
@@ -81,8 +78,7 @@ class Distribution {
   InteractionRange range_;
   bool drop_is_rigid_, solid_is_total_lagrangian_;
   bool has_distributed_solid_ = false;
-  double solid_reach_, surface_work_;
-  int surface_owner_ = -1;
+  double solid_reach_;
   DomainPartition partition_;
   ExchangePlan fluid_halo_, solid_halo_, wide_halo_;
   SlicedNeighbours inner_fluid_, border_fluid_;

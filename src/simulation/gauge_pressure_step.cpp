@@ -1,7 +1,7 @@
 #include "simulation/gauge_pressure_step.hpp"
 
+#include <algorithm>
 #include <array>
-#include <bit>
 
 #include "diagnostics/number_reader.hpp"
 
@@ -18,6 +18,8 @@ GaugePressureStep::GaugePressureStep(const Communicator& communicator, const Cas
       particle_count_(static_cast<double>(masses.size())),
       pending_(communicator) {
   for (const double mass : masses) rest_area_ += mass / input.fluid.density;
+  // Several times the drop's area fits, and the nodes' parts of it, which are not all of one sign.
+  area_quantum_ = QuantisedSum(0x1p-44 * std::max(rest_area_, 1e-30)).quantum();
 }
 
 void GaugePressureStep::relax(FluidParticles& fluid, double step) {
@@ -31,19 +33,20 @@ void GaugePressureStep::relax(FluidParticles& fluid, double step) {
   adjustment_ -= change * (area_ - rest_area_);
 }
 
-void GaugePressureStep::start(const FluidParticles& fluid, double area) {
+void GaugePressureStep::start(const FluidParticles& fluid, const SurfaceTensionStep& surface) {
   PressureSums sums(pressure_scale_);
   fluid.for_each_owned([&](std::size_t row) { sums.add(fluid.pressure[row]); });
-  // Of the area one rank's bits and the others' zeros add up to those bits.
   const auto [first, low, high] = sums.words();
-  pending_.start(std::array{first, low, high, std::bit_cast<std::int64_t>(area)});
+  QuantisedSum area(area_quantum_);
+  surface.add_area(area);
+  pending_.start(std::array{first, low, high, area.quanta()});
 }
 
 void GaugePressureStep::finish() {
   if (!pending_.is_under_way()) return;
   const std::span<const std::int64_t> words = pending_.finish();
   gauge_.target = PressureSums(pressure_scale_).target(words, particle_count_, lowest_);
-  area_ = std::bit_cast<double>(words[3]);
+  area_ = static_cast<double>(words[3]) * area_quantum_;
 }
 
 void GaugePressureStep::from_numbers(std::span<const double> numbers) {

@@ -8,6 +8,7 @@
 #include "decomposition/communicator.hpp"
 #include "fluid/gauge_pressure.hpp"
 #include "particles/fluid_particles.hpp"
+#include "simulation/surface_tension_step.hpp"
 
 namespace sphdrop {
 
@@ -33,9 +34,8 @@ class GaugePressureStep {
 
   /// Lets p_ref follow over the last `step` (s), and takes the change off the owned rows' staggered densities.
   void relax(FluidParticles& fluid, double step);
-  /// Collective. Sums up the owned rows' pressures, those counted from zero. `area`: that within the curves at the
-  /// surface's owner, 0 at the others, m2.
-  void start(const FluidParticles& fluid, double area);
+  /// Collective. Sums up the owned rows' pressures, those counted from zero, and the area within the surface.
+  void start(const FluidParticles& fluid, const SurfaceTensionStep& surface);
   /// Waits for what start() began, if it did.
   void finish();
 
@@ -49,6 +49,7 @@ class GaugePressureStep {
   double rest_area_ = 0, area_ = 0, adjustment_ = 0;
   GaugePressure gauge_;
   double pressure_scale_, particle_count_;
+  double area_quantum_ = 0;  // m2
   PendingSum pending_;
 };
 

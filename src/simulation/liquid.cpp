@@ -104,8 +104,8 @@ void Simulation::account_for_density_diffusion() {
 
 void Simulation::find_shift(double largest_speed) {
   shifting_.find(fluid_, distribution_, contact_, largest_speed, steps_.next);
-  energy_of_shift_ = surface_tension_.energy_of_displacement(shifting_.displacement_x(), shifting_.displacement_y(),
-                                                             gauge_.pressure(), contact_);
+  surface_tension_.add_energy_of_displacement(shifting_.displacement_x(), shifting_.displacement_y(), gauge_.pressure(),
+                                              contact_, shifting_.work());
 }
 
 void Simulation::damp_resting_drop() {

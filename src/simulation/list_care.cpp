@@ -17,7 +17,9 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
   // Looked for in time; where a step is too long for that, the lists are made anew.
   wants_displacements_ = solid_step_->is_total_lagrangian() &&
                          (largest_squared_displacement > 0.5 * allowed * allowed || contact_displacements_.has_value());
-  if (is_distributed_ && !forced && lists_hold) {
+  // What the surface takes is known once it has been found: then the work is dealt out anew.
+  const bool deals_out_surface = surface_tension_.has_curves() && is_distributed_ && !surface_is_dealt_out_;
+  if (is_distributed_ && !forced && !deals_out_surface && lists_hold) {
     // Such a solid stays with its ranks, but the drop may come upon another part of it.
     const bool solid_has_moved = solid_squared_displacement > allowed * allowed;
     const double squared_motion = contact_displacements_
@@ -33,7 +35,11 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
     }
     return;
   }
-  const bool solid_has_changed = distribution_.redistribute(fluid_, solid_, forced);
+  std::vector<std::int32_t> surface_rows;
+  if (is_distributed_)
+    for (const SurfaceTensionStep::OwnNode& own : surface_tension_.own_nodes()) surface_rows.push_back(own.row);
+  surface_is_dealt_out_ = surface_is_dealt_out_ || deals_out_surface;
+  const bool solid_has_changed = distribution_.redistribute(fluid_, solid_, surface_rows, forced || deals_out_surface);
   solid_is_predicted_ = liquid_is_predicted_ = false;
   check_nothing_is_lost();
   corrected_density_.resize(fluid_.size() + column_padding);

@@ -33,6 +33,8 @@ enum Sum : std::size_t {
   fluid_correction,
   fluid_shift,
   fluid_gauge,
+  tension_sharing,
+  surface_shift,
   solid_mass_x,
   solid_mass_y,
   solid_momentum_x,
@@ -163,31 +165,26 @@ void observe_drop(const Simulation& simulation, const std::array<double, sum_cou
 
   if (simulation.surface_tension().is_enabled()) {
     const SurfaceTensionStep& tension = simulation.surface_tension();
-    std::vector<double> numbers;
-    if (simulation.communicator().rank() == tension.owner()) {
-      const SurfaceReport r = tension.report();
-      numbers = {r.length, r.mean_curvature, r.curvature_scatter, r.curve_count, r.net_force, r.base_width, r.area};
-    }
-    simulation.communicator().broadcast(numbers, tension.owner());
-    o.curve_length = numbers[0];
-    o.curve_area = numbers[6];
-    o.mean_curvature = numbers[1];
-    o.curvature_scatter = numbers[2];
-    o.curve_count = numbers[3];
-    o.tension_net_force = numbers[4];
+    const SurfaceReport report = tension.report();
+    o.curve_length = report.length;
+    o.curve_area = report.area;
+    o.mean_curvature = report.mean_curvature;
+    o.curvature_scatter = report.curvature_scatter;
+    o.curve_count = report.curve_count;
+    o.tension_net_force = report.net_force;
     o.surface = simulation.input().surface_tension.coefficient * o.curve_length;
     o.reconnection = simulation.input().surface_tension.coefficient * tension.reconnected_length() +
                      tension.reconnected_gauge_energy();
-    o.sharing_work = tension.sharing_work();
+    o.sharing_work = sum[tension_sharing];
     if (tension.work_of_adhesion() > 0) {
-      o.base_width = numbers[5];
+      o.base_width = report.base_width;
       o.adhesion = -tension.work_of_adhesion() * o.base_width;
       o.reconnection -= tension.work_of_adhesion() * tension.reconnected_base();
     }
     const GaugePressureStep& gauge = simulation.gauge();
     if (gauge.is_enabled()) {
       o.gauge_pressure = gauge.pressure();
-      o.gauge = gauge.energy(numbers[6]);
+      o.gauge = gauge.energy(report.area);
       o.gauge_adjustment = gauge.adjustment() + sum[fluid_gauge];
     }
   }
@@ -258,6 +255,8 @@ void observe_contact(const Simulation& simulation, Observation& o) {
 Observation observe(const Simulation& simulation, double initial_total) {
   Sums sums;
   add_fluid(simulation, sums);
+  sums[tension_sharing].add(simulation.surface_tension().sharing_work().part());
+  sums[surface_shift].add(simulation.shifting().work().part());
   add_solid(simulation, sums);
   ExactSum::reduce(sums, simulation.communicator());
   std::array<double, sum_count> sum{};
@@ -285,7 +284,7 @@ Observation observe(const Simulation& simulation, double initial_total) {
   o.dissipated_solid = sum[solid_heat];
   o.density_correction = sum[fluid_correction];
   o.artificial_stress_work = sum[solid_artificial];
-  o.shifting_work = simulation.shifting().work() + sum[fluid_shift];
+  o.shifting_work = sum[surface_shift] + sum[fluid_shift];
   o.total = o.kinetic_fluid + o.kinetic_solid + o.elastic + o.compressive + o.surface + o.adhesion + o.contact +
             o.gravity + o.gauge;
   o.unaccounted = o.total + o.dissipated_fluid + o.dissipated_solid + o.dissipated_contact - o.density_correction -

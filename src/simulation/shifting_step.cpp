@@ -5,12 +5,13 @@
 
 namespace sphdrop {
 
-ShiftingStep::ShiftingStep(const Case& input, const SmoothingKernel& kernel)
+ShiftingStep::ShiftingStep(const Communicator& communicator, const Case& input, const SmoothingKernel& kernel)
     : is_enabled_(input.drop.is_liquid() && input.fluid.shifting == Switch::on),
       interval_(input.fluid.shifting_interval),
       rest_density_(input.fluid.density),
       sound_speed_(input.fluid.sound_speed),
-      parameters_{kernel, input.resolution.smoothing_ratio * input.resolution.spacing, input.resolution.spacing} {}
+      parameters_{kernel, input.resolution.smoothing_ratio * input.resolution.spacing, input.resolution.spacing},
+      work_(communicator, surface_energy_quantum(input.surface_tension.coefficient, input.resolution.spacing)) {}
 
 void ShiftingStep::find(const FluidParticles& fluid, const Distribution& distribution, const ContactStep& contact,
                         double largest_speed, double step) {
@@ -57,7 +58,7 @@ void ShiftingStep::apply(FluidParticles& fluid, Vector gravity, double kick) {
 
 void ShiftingStep::from_numbers(std::span<const double> numbers) {
   NumberReader reader(numbers, "shifting's work");
-  work_ = reader.number();
+  work_.restore(reader.number());
   reader.expect_end();
 }
 

@@ -8,6 +8,7 @@
 #include "fluid/particle_shifting.hpp"
 #include "simulation/contact_step.hpp"
 #include "simulation/distribution.hpp"
+#include "simulation/shared_energy.hpp"
 
 namespace sphdrop {
 
@@ -15,7 +16,7 @@ namespace sphdrop {
 /// displacements then include it.
 class ShiftingStep {
  public:
-  ShiftingStep(const Case& input, const SmoothingKernel& kernel);
+  ShiftingStep(const Communicator& communicator, const Case& input, const SmoothingKernel& kernel);
 
   bool is_enabled() const { return is_enabled_; }
   bool is_due(std::int64_t step) const { return is_enabled_ && step > 0 && step % interval_ == 0; }
@@ -33,13 +34,16 @@ class ShiftingStep {
   /// to come, s.
   void apply(FluidParticles& fluid, Vector gravity, double kick);
 
-  /// What shifts have added to the energy of surface, adhesion and gauge so far, J/m.
-  double work() const { return work_; }
-  void add_work(double energy) { work_ += energy; }
+  /// What shifts have added to the energy of surface, adhesion and gauge so far.
+  SharedEnergy& work() { return work_; }
+  const SharedEnergy& work() const { return work_; }
+  /// Counts what the step under way adds.
+  void book_work() { work_.book(); }
   /// Counts it anew.
-  void start_ledger() { work_ = 0; }
+  void start_ledger() { work_.restart(); }
 
-  std::vector<double> to_numbers() const { return {work_}; }
+  /// Collective.
+  std::vector<double> to_numbers() const { return {work_.total()}; }
   /// Throws std::invalid_argument where the numbers are not of to_numbers().
   void from_numbers(std::span<const double> numbers);
 
@@ -49,7 +53,7 @@ class ShiftingStep {
   double rest_density_, sound_speed_;
   ShiftingParameters parameters_;
   bool is_found_ = false;
-  double work_ = 0;
+  SharedEnergy work_;
   std::vector<double> x_, y_;  // by row: gradients, then displacements
   std::vector<double> concentration_, returned_, contact_x_, contact_y_;
 };

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "simulation/particle_transport.hpp"
-#include "simulation/surface_work.hpp"
 #include "solid/mass_proportional_damping.hpp"
 
 namespace sphdrop {
@@ -28,8 +27,6 @@ enum Maximum : std::size_t {
   squared_detection_displacement,
   failure,
   requested,
-  energy_of_shift,
-  energy_of_sharing,
   displacements,                                // of the liquid: a box
   detection_displacements = displacements + 4,  // likewise
   maxima_count = detection_displacements + 4
@@ -65,19 +62,16 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
                                   static_cast<std::int64_t>(initial_fluid.positions.size()))),
       distribution_(communicator, parameters_.range, input.parallel.imbalance_threshold, input.drop.is_rigid(),
                     solid_step_->is_total_lagrangian(),
-                    solid_step_->is_total_lagrangian() ? solid_step_->reach() : parameters_.range.list_reach(),
-                    surface_work(input, initial_fluid.positions.size())),
+                    solid_step_->is_total_lagrangian() ? solid_step_->reach() : parameters_.range.list_reach()),
       fluid_sweep_(parameters_.fluid_pair),
       gauge_(communicator, input, initial_fluid.masses),
-      shifting_(input, parameters_.kernel),
+      shifting_(communicator, input, parameters_.kernel),
       surface_tension_(communicator, input, parameters_.kernel),
       contact_(communicator, input, initial_solid, static_cast<std::int64_t>(initial_fluid.positions.size())),
       rigid_body_(input, initial_fluid),
       maxima_(communicator),
       drop_centre_(initial_fluid.centre),
       time_(0.0 - input.drop.relaxation_time),
-      energy_of_shift_(-infinity),
-      energy_of_sharing_(-infinity),
       timer_(communicator) {
   fluid_ghosted_ = fluid_.columns_with(Role::ghosted);
   if (has_density_diffusion()) {
@@ -226,8 +220,6 @@ void Simulation::settle() {
   if (!settled_.empty()) return;
   settled_ = maxima_.finish();
   gauge_.finish();
-  if (settled_[energy_of_shift] > -infinity) shifting_.add_work(settled_[energy_of_shift]);
-  if (settled_[energy_of_sharing] > -infinity) surface_tension_.add_sharing_work(settled_[energy_of_sharing]);
   timer_.lap(Phase::communication);
   request_ = settled_[requested];
   check_safety(settled_[failure]);
@@ -264,12 +256,8 @@ void Simulation::evaluate() {
   contact_.receive();
   if (surface_tension_.is_enabled()) surface_tension_.receive();
   timer_.lap(Phase::communication);
-  if (surface_tension_.is_enabled()) {
-    surface_tension_.work(contact_, gauge_.pressure());
-    if (surface_tension_.owner() == communicator_.rank())
-      energy_of_sharing_ = surface_tension_.sharing_power() * steps_.kick();
-  }
-  if (gauge_.is_enabled()) gauge_.start(fluid_, surface_tension_.enclosed_area());
+  if (surface_tension_.is_enabled()) surface_tension_.work(contact_, gauge_.pressure());
+  if (gauge_.is_enabled()) gauge_.start(fluid_, surface_tension_);
   timer_.lap(Phase::surface_tension);
   contact_.work(time_, steps_.next, steps_.kick(), surface_tension_.adhesion());
   timer_.lap(Phase::contact);
@@ -278,7 +266,7 @@ void Simulation::evaluate() {
   timer_.lap(Phase::communication);
   sweep_the_rest();
 
-  if (surface_tension_.is_enabled()) surface_tension_.finish(fluid_);
+  if (surface_tension_.is_enabled()) surface_tension_.finish(fluid_, steps_.kick());
   contact_.finish(fluid_);
   if (!has_substeps()) contact_.accelerate_solid(solid_);
   timer_.lap(Phase::communication);
@@ -357,9 +345,8 @@ void Simulation::post_maxima(const MotionMaxima& fluid, const MotionMaxima& soli
   mine[requested] = request;
   put_box(std::span(mine).subspan(displacements, 4), fluid.displacements);
   put_box(std::span(mine).subspan(detection_displacements, 4), fluid.detection_displacements);
-  // A number on one rank.
-  mine[energy_of_shift] = std::exchange(energy_of_shift_, -infinity);
-  mine[energy_of_sharing] = std::exchange(energy_of_sharing_, -infinity);
+  surface_tension_.book_sharing_work();
+  shifting_.book_work();
   maxima_.start(mine);
 }
 

@@ -171,12 +171,11 @@ class Simulation {
   std::span<const double> settled_;  // what move() left under way, once it is known; empty before
   double request_ = 0;
   double squared_drop_speed_ = 0;
-  // At the surface's owner, J/m; minus infinity elsewhere and where nothing is shifted or there is no surface.
-  double energy_of_shift_, energy_of_sharing_;
   std::optional<SolidStep::Inversion> inversion_;         // the first on this rank
   std::optional<DisplacementBox> contact_displacements_;  // of the liquid, if contact was gathered anew since the lists
   bool wants_displacements_ = false;                      // the drop may move as a whole
   bool is_distributed_ = false;
+  bool surface_is_dealt_out_ = false;  // its nodes have counted when particles were
   // At the present instant: by move(), and not lost with a new distribution since.
   bool solid_is_predicted_ = false, liquid_is_predicted_ = false;
   bool detection_is_due_ = true;

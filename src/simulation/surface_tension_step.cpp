@@ -4,12 +4,14 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
+#include <numeric>
+#include <utility>
 
+#include "decomposition/exact_sum.hpp"
 #include "diagnostics/number_reader.hpp"
 #include "fluid/particle_shifting.hpp"
+#include "simulation/surface_share.hpp"
 #include "sph/cell_grid.hpp"
-#include "surface_tension/near_particles.hpp"
 #include "surface_tension/surface_points.hpp"
 
 namespace sphdrop {
@@ -24,11 +26,13 @@ SurfaceTensionStep::SurfaceTensionStep(const Communicator& communicator, const C
       spacing_(input.resolution.spacing),
       support_(2.0 * input.resolution.smoothing_ratio * input.resolution.spacing),
       detection_displacement_(input.surface_tension.detection_displacement * input.resolution.spacing),
+      skin_(input.parallel.skin * input.resolution.spacing),
       polynomial_points_(static_cast<int>(input.surface_tension.polynomial_points)),
       orients_particles_(input.fluid.shifting == Switch::on),
       displacement_is_relative_(input.surface_tension.detection_motion == DetectionMotion::relative &&
                                 !input.is_wetting()),
       search_(support_),
+      sharing_work_(communicator, surface_energy_quantum(coefficient_, spacing_)),
       is_wetting_(is_enabled() && input.is_wetting()),
       adhesion_parameters_(adhesion_parameters(
           spacing_, input.contact.distance_ratio * spacing_,
@@ -42,7 +46,7 @@ void SurfaceTensionStep::detect(FluidParticles& fluid, const SolidParticles& sol
                                 ContactStep& contact, double gauge_pressure) {
   Extent old;
   if (has_curves_) {
-    gather_points(fluid);
+    place_points(fluid);
     if (is_wetting_) contact.gather_boundary(solid);
     old = extent_on_all_ranks(contact);
   }
@@ -71,7 +75,8 @@ void SurfaceTensionStep::recover(FluidParticles& fluid, Distribution& distributi
 }
 
 std::vector<double> SurfaceTensionStep::to_numbers() const {
-  return {has_curves_ ? 1.0 : 0.0, reconnected_length_, reconnected_base_, reconnected_gauge_energy_, sharing_work_};
+  return {has_curves_ ? 1.0 : 0.0, reconnected_length_, reconnected_base_, reconnected_gauge_energy_,
+          sharing_work_.total()};
 }
 
 void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
@@ -80,33 +85,46 @@ void SurfaceTensionStep::from_numbers(std::span<const double> numbers) {
   reconnected_length_ = reader.number();
   reconnected_base_ = reader.number();
   reconnected_gauge_energy_ = reader.number();
-  sharing_work_ = reader.number();
+  sharing_work_.restore(reader.number());
   reader.expect_end();
 }
 
-// The present surface points at the owner, on the curves of the last detection.
-void SurfaceTensionStep::gather_points(const FluidParticles& fluid) {
-  gather_.start_gather(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
-  gather_.finish_gather(std::array<void*, 2>{x_.data(), y_.data()});
+// The present surface points, on the curves of the last detection.
+void SurfaceTensionStep::place_points(const FluidParticles& fluid) {
+  start(fluid);
+  receive();
   place_nodes();
   surface_points(curves_, node_positions_, spacing_, points_);
 }
 
-SurfaceTensionStep::Extent SurfaceTensionStep::extent_on_all_ranks(const ContactStep& contact) {
-  std::vector<double> numbers;
-  if (owner() == communicator_.rank()) {
-    numbers = {total_length(curves_, points_), 0.0, total_area(curves_, points_)};
-    if (is_wetting_) numbers[1] = adhesion_.base_width(curves_, points_, contact.boundary(), adhesion_parameters_);
+void SurfaceTensionStep::place_nodes() {
+  for (std::size_t k = 0; k < node_place_.size(); ++k) {
+    const auto place = static_cast<std::size_t>(node_place_[k]);
+    node_positions_[k] = {x_[place], y_[place]};
   }
-  communicator_.broadcast(numbers, owner());
-  return {numbers[0], numbers[1], numbers[2]};
 }
 
-void SurfaceTensionStep::place_nodes() {
-  for (std::size_t k = 0; k < node_particle_.size(); ++k) {
-    const auto index = static_cast<std::size_t>(node_particle_[k]);
-    node_positions_[k] = {x_[index], y_[index]};
+double SurfaceTensionStep::area_of(const OwnNode& own, std::span<const Vector> points) const {
+  return 0.5 * cross(points[own.node] - own.curve_place, points[own.next] - own.curve_place);
+}
+
+void SurfaceTensionStep::add_area(QuantisedSum& area) const {
+  for (const OwnNode& own : own_nodes_) area.add(area_of(own, points_));
+}
+
+SurfaceTensionStep::Extent SurfaceTensionStep::extent_on_all_ranks(const ContactStep& contact) {
+  std::array<ExactSum, 2> sums;
+  for (const OwnNode& own : own_nodes_) {
+    sums[0].add(length(points_[own.next] - points_[own.node]));
+    sums[1].add(area_of(own, points_));
   }
+  ExactSum::reduce(sums, communicator_);
+  std::vector<double> base(1, 0.0);
+  if (is_wetting_) {
+    if (works_on_adhesion()) base[0] = adhesion_.base_width(curves_, points_, contact.boundary(), adhesion_parameters_);
+    communicator_.broadcast(base, node_forces_.owner());
+  }
+  return {sums[0].value(), base[0], sums[1].value()};
 }
 
 void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribution) {
@@ -188,172 +206,212 @@ void SurfaceTensionStep::orient_along_surface(FluidParticles& fluid) const {
 
 void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& contact, const Distribution& distribution) {
   if (orients_particles_) orient_along_surface(fluid);
-  SurfaceCurves curves = connect_arcs(arcs_, arc_centres_, support_);
-  std::vector<Vector> node_positions, points(curves.nodes.size());
-  for (const SurfaceCurves::Node& node : curves.nodes) node_positions.push_back(node.centre);
-  surface_points(curves, node_positions, spacing_, points);
+  const SurfaceCurves curves = connect_arcs(arcs_, arc_centres_, support_);
+  std::vector<Vector> centres, points(curves.nodes.size());
+  for (const SurfaceCurves::Node& node : curves.nodes) centres.push_back(node.centre);
+  surface_points(curves, centres, spacing_, points);
+  curve_count_ = 0;
+  for (std::size_t c = 0; c < curves.size(); ++c) curve_count_ += curves.curve(c).carries_force() ? 1.0 : 0.0;
   // A surface point acts as far as 2h. Until the next detection both ends move by its displacement and a step, the
-  // point a little more, as it also turns about its particle.
+  // point a little more, as it also turns about its particle. Between detection and distribution, whichever came first,
+  // two particles move against each other by as much, or by a skin.
   const double action = support_ + 6.0 * detection_displacement_ + 0.02 * spacing_;
-  const std::size_t owned = fluid.owned_count();
-  band_rows_ = particles_near(points, {fluid.detection_position.x.data(), owned},
-                              {fluid.detection_position.y.data(), owned}, action);
-  std::vector<std::int64_t> ids;
-  for (const std::int32_t row : band_rows_) ids.push_back(fluid.id[static_cast<std::size_t>(row)]);
-  int owner = is_wetting_ ? contact.owner() : distribution.surface_owner();
-  if (owner < 0) owner = rank_with_most(communicator_, static_cast<std::int64_t>(band_rows_.size()));
-  gather_ = InterfaceGather(communicator_, ids, band_rows_, owner, tags::surface, GatheredOrder::as_arrived);
-  returned_x_.assign(band_rows_.size(), 0.0);
-  returned_y_.assign(band_rows_.size(), 0.0);
+  const double looseness = std::max(skin_, 2.0 * detection_displacement_) + 0.1 * spacing_;
+  SurfaceShare share = share_of_surface(communicator_, fluid, distribution, curves, points, {action, looseness},
+                                        is_wetting_ ? contact.owner() : -1);
+  band_ = CollectedRows(communicator_, {fluid.id.data(), fluid.id.size()}, std::move(share.rows),
+                        std::move(share.sends), tags::surface);
+  const std::size_t collected = band_.size();
+  x_.assign(collected + 1, ForceSharing::far_away);
+  y_.assign(collected + 1, ForceSharing::far_away);
+  for (auto* column : {&mass_, &acceleration_x_, &acceleration_y_}) column->resize(collected);
+  energies_.resize(band_.own_rows().size());
+  band_.start(std::array<const void*, 3>{fluid.detection_position.x.data(), fluid.detection_position.y.data(),
+                                         fluid.mass.data()});
+  band_.finish(std::array<void*, 3>{x_.data(), y_.data(), mass_.data()});
+  take_piece(curves, piece_of_curves(curves, share.is_wanted, steps_of_a_force), share.node_row, contact.owner());
+  place_nodes();
+  surface_points(curves_, node_positions_, spacing_, points_);
+  sharing_.rebuild(points_, std::span(x_).first(collected), std::span(y_).first(collected), mass_,
+                   band_.order().by_id(), action);
+  if (works_on_adhesion()) adhesion_.rebuild(node_positions_, contact.boundary(), adhesion_reach_);
+}
 
-  const std::size_t gathered = gather_.ids().size();
-  x_.assign(gathered + 1, ForceSharing::far_away);
-  y_.assign(gathered + 1, ForceSharing::far_away);
-  velocity_x_.resize(gathered);
-  velocity_y_.resize(gathered);
-  mass_.resize(gathered);
-  powers_.resize(gathered);
-  acceleration_x_.resize(gathered);
-  acceleration_y_.resize(gathered);
-  gather_.start_gather(std::array<const void*, 3>{fluid.detection_position.x.data(), fluid.detection_position.y.data(),
-                                                  fluid.mass.data()});
-  gather_.finish_gather(std::array<void*, 3>{x_.data(), y_.data(), mass_.data()});
-  if (owner != communicator_.rank()) {
-    curves = {};
-    node_positions.clear();
-    points.clear();
-  }
-  curves_ = std::move(curves);
-  node_positions_ = std::move(node_positions);
-  points_ = std::move(points);
+void SurfaceTensionStep::take_piece(const SurfaceCurves& curves, CurvePiece piece,
+                                    std::span<const std::int32_t> node_row, int contact_owner) {
+  curves_ = std::move(piece.curves);
+  beyond_ = std::move(piece.beyond);
   const std::size_t nodes = curves_.nodes.size();
-  node_velocities_.resize(nodes);
-  point_velocities_.resize(nodes);
-  forces_.resize(nodes);
-  node_particle_.clear();
+  for (auto* by_node : {&node_positions_, &points_, &forces_, &turning_}) by_node->resize(nodes);
+  node_place_.clear();
   for (const SurfaceCurves::Node& node : curves_.nodes) {
-    node_particle_.push_back(gather_.index_of(node.particle));
-    assert(node_particle_.back() >= 0);
+    node_place_.push_back(band_.order().place_of(node.particle));
+    assert(node_place_.back() >= 0);
   }
-  if (owner != communicator_.rank()) return;
-  sharing_.rebuild(points_, std::span(x_).first(gathered), std::span(y_).first(gathered), mass_, gather_.by_id(),
-                   action);
-  if (is_wetting_) {
-    adhesion_.rebuild(node_positions_, contact.boundary(), adhesion_reach_);
-    all_forces_.resize(nodes);
+  own_nodes_.clear();
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    const SurfaceCurves::Range curve = curves_.curve(c);
+    if (!curve.carries_force()) continue;
+    const std::size_t first = curves.curve(static_cast<std::size_t>(piece.curve[c])).first;
+    for (std::size_t k = curve.first; k < curve.last; ++k)
+      if (const std::int32_t row = node_row[static_cast<std::size_t>(piece.number[k])]; row >= 0)
+        own_nodes_.push_back({k, curve.previous(k), curve.next(k), row, curves.nodes[first].centre});
   }
+  if (!is_wetting_) return;
+  std::vector<std::int64_t> numbers(piece.number.begin(), piece.number.end());
+  std::vector<std::int32_t> places(nodes);
+  std::iota(places.begin(), places.end(), 0);
+  node_forces_ = InterfaceGather(communicator_, numbers, places, contact_owner, tags::surface + 1);
+  all_forces_.resize(nodes);
+  for (auto* column : {&force_x_, &force_y_}) column->resize(nodes);
+  for (auto* column : {&sent_force_x_, &sent_force_y_}) column->resize(node_forces_.ids().size());
 }
 
 void SurfaceTensionStep::start(const FluidParticles& fluid) {
-  gather_.start_gather(std::array<const void*, 4>{fluid.position.x.data(), fluid.position.y.data(),
-                                                  fluid.velocity.x.data(), fluid.velocity.y.data()});
+  band_.start(std::array<const void*, 2>{fluid.position.x.data(), fluid.position.y.data()});
 }
 
 void SurfaceTensionStep::receive() {
-  gather_.finish_gather(std::array<void*, 4>{x_.data(), y_.data(), velocity_x_.data(), velocity_y_.data()});
+  band_.finish(std::array<void*, 2>{x_.data(), y_.data()});
 }
 
 void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
-  if (owner() == communicator_.rank()) {
-    place_nodes();
-    for (std::size_t k = 0; k < node_particle_.size(); ++k) {
-      const auto index = static_cast<std::size_t>(node_particle_[k]);
-      node_velocities_[k] = {velocity_x_[index], velocity_y_[index]};
+  place_nodes();
+  surface_points(curves_, node_positions_, spacing_, points_);
+  if (form_ == SurfaceTensionForm::conservative)
+    conservative_forces(curves_, points_, coefficient_, forces_);
+  else
+    curvature_forces(curves_, points_, coefficient_, polynomial_points_, forces_);
+  if (gauge_pressure != 0.0) add_pressure_forces(curves_, points_, gauge_pressure, forces_);
+  for (const std::int32_t node : beyond_) forces_[static_cast<std::size_t>(node)] = {};
+  if (is_wetting_)
+    add_adhesion(contact);
+  else
+    share();
+}
+
+// Sent on its way: others need not wait before they have nothing else to do.
+void SurfaceTensionStep::add_adhesion(ContactStep& contact) {
+  if (works_on_adhesion()) {
+    all_forces_ = forces_;
+    adhesion_summary_ = adhesion_.apply(curves_, points_, contact.boundary().segments, contact.boundary_forces(),
+                                        adhesion_parameters_, all_forces_);
+    // It has all nodes, each in its place.
+    for (std::size_t k = 0; k < node_forces_.ids().size(); ++k) {
+      const Vector force = all_forces_[static_cast<std::size_t>(node_forces_.ids()[k])];
+      sent_force_x_[k] = force.x;
+      sent_force_y_[k] = force.y;
     }
-    surface_points(curves_, node_positions_, node_velocities_, spacing_, points_, point_velocities_);
-    if (form_ == SurfaceTensionForm::conservative)
-      conservative_forces(curves_, points_, coefficient_, forces_);
-    else
-      curvature_forces(curves_, points_, coefficient_, polynomial_points_, forces_);
-    if (gauge_pressure != 0.0) add_pressure_forces(curves_, points_, gauge_pressure, forces_);
-    std::fill(acceleration_x_.begin(), acceleration_x_.end(), 0.0);
-    std::fill(acceleration_y_.begin(), acceleration_y_.end(), 0.0);
-    if (is_wetting_) {
-      all_forces_ = forces_;
-      adhesion_summary_ = adhesion_.apply(curves_, points_, contact.boundary().segments, contact.boundary_forces(),
-                                          adhesion_parameters_, all_forces_);
-    }
-    const std::vector<Vector>& shared = is_wetting_ ? all_forces_ : forces_;
-    lost_points_ = sharing_.share(points_, shared, x_, y_, kernel_, acceleration_x_, acceleration_y_);
-    sharing_power_ = power_of_sharing(shared);
   }
-  gather_.start_scatter(std::array<const void*, 2>{acceleration_x_.data(), acceleration_y_.data()});
+  node_forces_.start_scatter(std::array<const void*, 2>{sent_force_x_.data(), sent_force_y_.data()});
 }
 
-double SurfaceTensionStep::power_of_sharing(std::span<const Vector> forces) {
-  // Apart from the sum, which has an order and waits for each of its terms.
-  for (std::size_t k = 0; k < powers_.size(); ++k)
-    powers_[k] = mass_[k] * (acceleration_x_[k] * velocity_x_[k] + acceleration_y_[k] * velocity_y_[k]);
-  double on_particles = 0, on_points = 0;
-  for (const std::int32_t k : sharing_.particles()) on_particles += powers_[static_cast<std::size_t>(k)];
-  for (std::size_t k = 0; k < forces.size(); ++k) on_points += dot(forces[k], point_velocities_[k]);
-  return on_particles - on_points;
+void SurfaceTensionStep::share() {
+  std::fill(acceleration_x_.begin(), acceleration_x_.end(), 0.0);
+  std::fill(acceleration_y_.begin(), acceleration_y_.end(), 0.0);
+  sharing_.share(points_, is_wetting_ ? all_forces_ : forces_, x_, y_, kernel_, acceleration_x_, acceleration_y_);
 }
 
-void SurfaceTensionStep::finish(FluidParticles& fluid) {
-  gather_.finish_scatter(std::array<void*, 2>{returned_x_.data(), returned_y_.data()});
-  for (std::size_t k = 0; k < band_rows_.size(); ++k) {
-    const auto row = static_cast<std::size_t>(band_rows_[k]);
-    fluid.acceleration.x[row] += returned_x_[k];
-    fluid.acceleration.y[row] += returned_y_[k];
+void SurfaceTensionStep::finish(FluidParticles& fluid, double kick) {
+  if (is_wetting_) {
+    node_forces_.finish_scatter(std::array<void*, 2>{force_x_.data(), force_y_.data()});
+    for (std::size_t k = 0; k < all_forces_.size(); ++k) all_forces_[k] = {force_x_[k], force_y_[k]};
+    for (const std::int32_t node : beyond_) all_forces_[static_cast<std::size_t>(node)] = {};
+    share();
+  }
+  const std::span<const std::int32_t> rows = band_.own_rows();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto row = static_cast<std::size_t>(rows[k]);
+    fluid.acceleration.x[row] += acceleration_x_[k];
+    fluid.acceleration.y[row] += acceleration_y_[k];
+    energies_[k] =
+        kick * mass_[k] * (acceleration_x_[k] * fluid.velocity.x[row] + acceleration_y_[k] * fluid.velocity.y[row]);
+  }
+  sharing_work_.add(energies_);
+  account_for_points(fluid, kick);
+}
+
+void SurfaceTensionStep::account_for_points(const FluidParticles& fluid, double kick) {
+  const std::vector<Vector>& forces = is_wetting_ ? all_forces_ : forces_;
+  turning_forces(curves_, node_positions_, spacing_, forces, turning_);
+  for (const OwnNode& own : own_nodes_) {
+    const Vector on_node = forces[own.node] + turning_[own.previous] - turning_[own.next];
+    sharing_work_.add(-kick * dot(on_node, fluid.velocity.at(static_cast<std::size_t>(own.row))));
   }
 }
 
-double SurfaceTensionStep::energy_of_displacement(std::span<const double> x, std::span<const double> y,
-                                                  double gauge_pressure, const ContactStep& contact) {
-  displacement_x_.resize(mass_.size());
-  displacement_y_.resize(mass_.size());
-  gather_.start_gather(std::array<const void*, 2>{x.data(), y.data()});
-  gather_.finish_gather(std::array<void*, 2>{displacement_x_.data(), displacement_y_.data()});
-  if (owner() != communicator_.rank()) return -std::numeric_limits<double>::infinity();
+void SurfaceTensionStep::add_energy_of_displacement(std::span<const double> x, std::span<const double> y,
+                                                    double gauge_pressure, const ContactStep& contact,
+                                                    SharedEnergy& energy) {
+  displacement_x_.resize(band_.size());
+  displacement_y_.resize(band_.size());
+  band_.start(std::array<const void*, 2>{x.data(), y.data()});
+  band_.finish(std::array<void*, 2>{displacement_x_.data(), displacement_y_.data()});
   displaced_positions_.resize(node_positions_.size());
   displaced_points_.resize(points_.size());
-  for (std::size_t k = 0; k < node_particle_.size(); ++k) {
-    const auto index = static_cast<std::size_t>(node_particle_[k]);
-    displaced_positions_[k] = node_positions_[k] + Vector{displacement_x_[index], displacement_y_[index]};
+  for (std::size_t k = 0; k < node_place_.size(); ++k) {
+    const auto place = static_cast<std::size_t>(node_place_[k]);
+    displaced_positions_[k] = node_positions_[k] + Vector{displacement_x_[place], displacement_y_[place]};
   }
   surface_points(curves_, displaced_positions_, spacing_, displaced_points_);
+  for (const OwnNode& own : own_nodes_) {
+    const auto segment = [&](const std::vector<Vector>& points) { return length(points[own.next] - points[own.node]); };
+    energy.add(coefficient_ * (segment(displaced_points_) - segment(points_)) -
+               gauge_pressure * (area_of(own, displaced_points_) - area_of(own, points_)));
+  }
+  if (!works_on_adhesion()) return;
   const auto base_width = [&](const std::vector<Vector>& points) {
-    return is_wetting_ ? adhesion_.base_width(curves_, points, contact.boundary(), adhesion_parameters_) : 0.0;
+    return adhesion_.base_width(curves_, points, contact.boundary(), adhesion_parameters_);
   };
-  return coefficient_ * (total_length(curves_, displaced_points_) - total_length(curves_, points_)) -
-         work_of_adhesion() * (base_width(displaced_points_) - base_width(points_)) -
-         gauge_pressure * (total_area(curves_, displaced_points_) - total_area(curves_, points_));
+  energy.add(-work_of_adhesion() * (base_width(displaced_points_) - base_width(points_)));
 }
 
 SurfaceReport SurfaceTensionStep::report() const {
-  SurfaceReport report;
-  report.length = total_length(curves_, points_);
-  report.area = enclosed_area();
-  report.node_count = static_cast<double>(curves_.nodes.size());
-  report.unmatched_arcs = static_cast<double>(curves_.unmatched_arcs);
-  report.lost_points = static_cast<double>(lost_points_);
-  report.base_width = adhesion_summary_.base_width;
-
+  enum Sum : std::size_t {
+    total_length,
+    area,
+    first_moment,
+    second_moment,
+    force_x,
+    force_y,
+    magnitudes,
+    weight,
+    count
+  };
+  std::array<ExactSum, count> sums;
   std::vector<double> curvature(points_.size());
   curvatures(curves_, points_, polynomial_points_, curvature);
-  double weight = 0, first = 0, second = 0, magnitudes = 0;
-  Vector sum;
-  for (std::size_t c = 0; c < curves_.size(); ++c) {
-    const SurfaceCurves::Range range = curves_.curve(c);
-    if (!range.carries_force()) continue;
-    report.curve_count += 1.0;
-    for (std::size_t k = range.first; k < range.last; ++k) {
-      const double arc_length =
-          0.5 * (length(points_[range.next(k)] - points_[k]) + length(points_[k] - points_[range.previous(k)]));
-      weight += arc_length;
-      first += arc_length * curvature[k];
-      second += arc_length * curvature[k] * curvature[k];
-      sum += forces_[k];
-      magnitudes += length(forces_[k]);
-    }
+  for (const OwnNode& own : own_nodes_) {
+    const double after = length(points_[own.next] - points_[own.node]);
+    const double arc_length = 0.5 * (after + length(points_[own.node] - points_[own.previous]));
+    const double kappa = curvature[own.node];
+    sums[total_length].add(after);
+    sums[area].add(area_of(own, points_));
+    sums[weight].add(arc_length);
+    sums[first_moment].add(arc_length * kappa);
+    sums[second_moment].add(arc_length * kappa * kappa);
+    sums[force_x].add(forces_[own.node].x);
+    sums[force_y].add(forces_[own.node].y);
+    sums[magnitudes].add(length(forces_[own.node]));
   }
-  if (weight > 0) {
-    report.mean_curvature = first / weight;
-    report.curvature_scatter =
-        std::sqrt(std::max(0.0, second / weight - report.mean_curvature * report.mean_curvature));
+  ExactSum::reduce(sums, communicator_);
+  const auto value = [&](Sum sum) { return sums[sum].value(); };
+
+  SurfaceReport report;
+  report.length = value(total_length);
+  report.area = value(area);
+  report.curve_count = curve_count_;
+  if (value(weight) > 0) {
+    report.mean_curvature = value(first_moment) / value(weight);
+    const double variance = value(second_moment) / value(weight) - report.mean_curvature * report.mean_curvature;
+    report.curvature_scatter = std::sqrt(std::max(0.0, variance));
   }
-  if (magnitudes > 0) report.net_force = length(sum) / magnitudes;
+  if (value(magnitudes) > 0) report.net_force = length(Vector{value(force_x), value(force_y)}) / value(magnitudes);
+  if (is_wetting_) {
+    std::vector<double> base{adhesion_summary_.base_width};
+    communicator_.broadcast(base, node_forces_.owner());
+    report.base_width = base[0];
+  }
   return report;
 }
 

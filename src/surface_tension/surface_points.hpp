@@ -14,10 +14,11 @@ namespace sphdrop {
 void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_positions, double spacing,
                     std::span<Vector> points);
 
-/// The points, and how fast they move with their particles: ds_k/dt = v_k + dn_k/dt d/2, which the neighbours on the
-/// curve turn; v_k alone where the two are the same particle. node_velocities and velocities by node, m/s.
-void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_positions,
-                    std::span<const Vector> node_velocities, double spacing, std::span<Vector> points,
-                    std::span<Vector> velocities);
+/// How forces on surface points come to act on the nodes they go with. A point moves with ds_k/dt = v_k + dn_k/dt d/2,
+/// and its neighbours on the curve turn its normal; so the forces' power is sum F_k . ds_k/dt = sum v_k . (F_k +
+/// T_{k-1} - T_{k+1}), with T_k what is worked out here: zero where the two neighbours are the same particle.
+/// Forces and turning by node, N/m.
+void turning_forces(const SurfaceCurves& curves, std::span<const Vector> node_positions, double spacing,
+                    std::span<const Vector> forces, std::span<Vector> turning);
 
 }  // namespace sphdrop

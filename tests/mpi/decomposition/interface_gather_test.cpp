@@ -1,4 +1,4 @@
-// Rows brought together at one rank, by id or as they arrive, and results brought back to those who sent them.
+// Rows brought together at one rank, and results brought back to those who sent them.
 
 #include "decomposition/interface_gather.hpp"
 
@@ -27,23 +27,15 @@ struct Contribution {
   }
 };
 
-void expect_there_and_back(GatheredOrder order) {
+TEST(InterfaceGather, BringsResultsBackInTheOrderOfTheRowsNamed) {
   const Communicator communicator(MPI_COMM_WORLD);
   const int ranks = communicator.size(), rank = communicator.rank();
   for (int owner = 0; owner < ranks; ++owner) {
     const Contribution mine(communicator);
-    InterfaceGather gather(communicator, mine.ids, mine.rows, owner, 40, order);
+    InterfaceGather gather(communicator, mine.ids, mine.rows, owner, 40);
     const auto all = static_cast<std::size_t>(rank == owner ? ranks * (ranks + 1) / 2 : 0);
     ASSERT_EQ(gather.ids().size(), all);
-    ASSERT_EQ(gather.by_id().size(), all);
-    std::vector<std::int64_t> ascending;
-    for (const std::int32_t place : gather.by_id()) ascending.push_back(gather.ids()[static_cast<std::size_t>(place)]);
-    EXPECT_TRUE(std::is_sorted(ascending.begin(), ascending.end()));
-    if (order == GatheredOrder::by_id) {
-      EXPECT_TRUE(std::is_sorted(gather.ids().begin(), gather.ids().end()));
-    }
-    for (std::size_t k = 0; k < all; ++k) EXPECT_EQ(gather.index_of(gather.ids()[k]), static_cast<std::int32_t>(k));
-    EXPECT_EQ(gather.index_of(101), -1);
+    EXPECT_TRUE(std::is_sorted(gather.ids().begin(), gather.ids().end()));
 
     for (int round = 0; round < 2; ++round) {  // the buffers of the first are used again
       std::vector<double> gathered(all), twice(all), column = mine.column;
@@ -64,21 +56,20 @@ void expect_there_and_back(GatheredOrder order) {
   }
 }
 
-TEST(InterfaceGather, BringsResultsBackInTheOrderOfTheRowsNamed) {
-  expect_there_and_back(GatheredOrder::by_id);
-}
-
-TEST(InterfaceGather, DoesSoWithWhatLiesAsItArrives) {
-  expect_there_and_back(GatheredOrder::as_arrived);
-}
-
-TEST(InterfaceGather, LeavesRowsAsTheyArriveWhereTheyNeedNotBeSorted) {
+// What the owner works out for all may be wanted by several.
+TEST(InterfaceGather, BringsResultsToAllWhoNameAnId) {
   const Communicator communicator(MPI_COMM_WORLD);
-  const Contribution mine(communicator);
-  const int owner = communicator.size() - 1;
-  const InterfaceGather gather(communicator, mine.ids, mine.rows, owner, 40, GatheredOrder::as_arrived);
-  const std::vector<std::int64_t> expected = communicator.gather(std::span<const std::int64_t>(mine.ids), owner);
-  EXPECT_EQ((std::vector<std::int64_t>(gather.ids().begin(), gather.ids().end())), expected);
+  const int rank = communicator.rank(), owner = communicator.size() - 1;
+  const std::vector<std::int64_t> ids{7, 100 + rank, 3};
+  const std::vector<std::int32_t> rows{0, 1, 2};
+  InterfaceGather gather(communicator, ids, rows, owner, 40);
+  std::vector<double> results;
+  for (const std::int64_t id : gather.ids()) results.push_back(0.5 * static_cast<double>(id));
+  ASSERT_EQ(results.size(), static_cast<std::size_t>(rank == owner ? 3 * communicator.size() : 0));
+  std::vector<double> returned(3);
+  gather.start_scatter(std::array<const void*, 1>{results.data()});
+  gather.finish_scatter(std::array<void*, 1>{returned.data()});
+  EXPECT_EQ(returned, (std::vector<double>{3.5, 50.0 + 0.5 * rank, 1.5}));
 }
 
 }  // namespace

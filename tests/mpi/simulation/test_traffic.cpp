@@ -130,6 +130,26 @@ gauge_pressure = "on"
 wall_drag = 20.0
 )";
 
+constexpr const char* wetted = R"(
+[resolution]
+spacing = 0.0625e-3
+[time]
+end = 1e-3
+sound_cfl = 0.3
+[drop]
+diameter = 0.8e-3
+velocity = [0.2, -2.0]
+gap = 1e-6
+[solid]
+kind = "cantilever"
+length = 2e-3
+[surface_tension]
+contact_angle = 40.0
+[contact]
+stiffness_form = "fixed"
+wall_drag = 1.0
+)";
+
 constexpr const char* beam_alone = R"(
 [resolution]
 spacing = 0.0625e-3
@@ -170,12 +190,14 @@ Traffic step_formula(const Simulation& simulation, const Columns& columns) {
   };
   if (simulation.fluid_total() > 0) {
     add_exchange(traffic, simulation.distribution().fluid_halo(), rank, columns.liquid);
-    add_interface(simulation.surface_tension().gather(), 4);
+    add_exchange(traffic, simulation.surface_tension().band().plan(), rank, 2);
+    if (simulation.input().is_wetting())
+      add_exchange(traffic, simulation.surface_tension().node_forces().plan(), rank, 2, true);
     add_interface(simulation.contact().fluid_gather(), columns.contact);
     add_interface(simulation.contact().solid_gather(), columns.contact);
   }
   add_exchange(traffic, simulation.distribution().solid_halo(), rank, columns.solid);
-  traffic.add(TrafficKind::pending_reduction, 17 * 8);
+  traffic.add(TrafficKind::pending_reduction, 15 * 8);
   if (columns.has_gauge) traffic.add(TrafficKind::pending_reduction, 4 * 8);
   return traffic;
 }
@@ -219,7 +241,7 @@ void expect_formula(const char* text, const Columns& columns, int steps) {
 }
 
 TEST(Traffic, IsWhatMpiIsCalledFor) {
-  for (const char* text : {cantilever, cells_and_gauge, beam_alone}) {
+  for (const char* text : {cantilever, cells_and_gauge, wetted, beam_alone}) {
     const Traffic before = counted_calls;
     CountedRun run(text);
     for (int k = 0; k < 60; ++k) {
@@ -234,6 +256,7 @@ TEST(Traffic, IsWhatMpiIsCalledFor) {
 TEST(Traffic, OfAStepFollowsTheFormula) {
   expect_formula(cantilever, {5, 8, 2, false}, 60);
   expect_formula(cells_and_gauge, {5, 2, 4, true}, 60);
+  expect_formula(wetted, {5, 8, 4, false}, 60);
   expect_formula(beam_alone, {5, 8, 2, false}, 20);
 }
 
@@ -275,7 +298,7 @@ TEST(Traffic, OfTheReportIsThatOfThePhases) {
   ASSERT_EQ(traffic.size(), 3U);
   EXPECT_EQ(traffic[0].occasion, "step");
   EXPECT_DOUBLE_EQ(traffic[0].collectives, 1.0);
-  EXPECT_DOUBLE_EQ(traffic[0].collective_bytes, 136.0);
+  EXPECT_DOUBLE_EQ(traffic[0].collective_bytes, 120.0);
   double messages = 0, bytes = 0;
   for (const RankTraffic& t : traffic) {
     EXPECT_GT(t.times, 0);

@@ -70,36 +70,40 @@ TEST(SurfacePoints, OfPairsAndIsolatedParticlesAreFinite) {
   EXPECT_NEAR(points[2].x, 21.5 * spacing, 1e-12 * spacing);
 }
 
-// Against the difference of the points a little later and a little earlier, on a drop, a chain and a pair.
-TEST(SurfaceVelocities, AreTheRatesOfThePoints) {
+// Against the work of the forces while the points go from where they are a little earlier to a little later, on a drop,
+// a chain and a pair.
+TEST(TurningForces, MakeThePowerOfTheForcesOnThePoints) {
   Positions pair_and_drop = ring_disc(6);
   pair_and_drop.push_back({30.0 * spacing, 0.0});
   pair_and_drop.push_back({31.0 * spacing, 0.3 * spacing});
   for (const Positions& positions : {pair_and_drop, rectangle(5, 1), rectangle(5, 3)}) {
     const SurfaceCurves curves = curves_of(positions);
     const Positions nodes = node_positions(curves, positions);
-    Positions rates(nodes.size()), earlier(nodes.size()), later(nodes.size()), found(nodes.size());
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const std::size_t size = nodes.size();
+    Positions velocities, forces, turning(size), earlier, later, before(size), after(size);
+    const double step = 1e-5 * spacing;
+    for (std::size_t k = 0; k < size; ++k) {
       // One velocity a particle, whatever its nodes; neither a translation nor a rotation.
       const auto id = static_cast<double>(curves.nodes[k].particle);
-      rates[k] = {std::sin(3.0 * id) + 0.2, std::cos(5.0 * id) - 0.4};
+      velocities.push_back({std::sin(3.0 * id) + 0.2, std::cos(5.0 * id) - 0.4});
+      forces.push_back({std::cos(2.0 * static_cast<double>(k)), std::sin(7.0 * static_cast<double>(k))});
+      earlier.push_back(nodes[k] - step * velocities[k]);
+      later.push_back(nodes[k] + step * velocities[k]);
     }
-    Positions points(nodes.size()), points_alone(nodes.size());
-    surface_points(curves, nodes, rates, spacing, points, found);
-    surface_points(curves, nodes, spacing, points_alone);
-    EXPECT_EQ(points, points_alone);
-    const double step = 1e-5 * spacing;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      earlier[k] = nodes[k] - step * rates[k];
-      later[k] = nodes[k] + step * rates[k];
-    }
-    Positions before(nodes.size()), after(nodes.size());
     surface_points(curves, earlier, spacing, before);
     surface_points(curves, later, spacing, after);
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      EXPECT_NEAR(found[k].x, (after[k].x - before[k].x) / (2.0 * step), 1e-6) << k;
-      EXPECT_NEAR(found[k].y, (after[k].y - before[k].y) / (2.0 * step), 1e-6) << k;
+    turning_forces(curves, nodes, spacing, forces, turning);
+    double power = 0, power_without = 0, expected = 0;
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+      const SurfaceCurves::Range curve = curves.curve(c);
+      for (std::size_t k = curve.first; k < curve.last; ++k) {
+        power_without += dot(velocities[k], forces[k]);
+        power += dot(velocities[k], forces[k] + turning[curve.previous(k)] - turning[curve.next(k)]);
+        expected += dot(forces[k], after[k] - before[k]) / (2.0 * step);
+      }
     }
+    EXPECT_NEAR(power, expected, 1e-6 * static_cast<double>(size));
+    EXPECT_GT(std::abs(power_without - expected), 0.01);  // or the turning would not matter
   }
 }
 

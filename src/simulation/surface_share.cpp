@@ -1,0 +1,123 @@
+#include "simulation/surface_share.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "decomposition/id_order.hpp"
+#include "surface_tension/near_particles.hpp"
+
+namespace sphdrop {
+
+namespace {
+
+std::vector<std::int32_t> rows_of_nodes(const FluidParticles& fluid, const SurfaceCurves& curves,
+                                        std::span<const std::int32_t> rows) {
+  std::vector<std::int64_t> ids;
+  ids.reserve(rows.size());
+  for (const std::int32_t row : rows) ids.push_back(fluid.id[static_cast<std::size_t>(row)]);
+  const IdOrder order(std::move(ids));
+  std::vector<std::int32_t> row_of_node;
+  row_of_node.reserve(curves.nodes.size());
+  for (const SurfaceCurves::Node& node : curves.nodes) {
+    const std::int32_t place = order.place_of(node.particle);
+    row_of_node.push_back(place < 0 ? -1 : rows[static_cast<std::size_t>(place)]);
+  }
+  return row_of_node;
+}
+
+std::vector<char> wanted_points(const FluidParticles& fluid, const SurfaceCurves& curves,
+                                std::span<const Vector> points, const SurfaceShare& share, double action) {
+  std::vector<Vector> places;
+  for (const std::int32_t row : share.rows)
+    places.push_back(fluid.detection_position.at(static_cast<std::size_t>(row)));
+  std::vector<double> x, y;
+  for (const Vector point : points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
+  }
+  std::vector<char> is_wanted(points.size(), 0);
+  if (!places.empty())
+    for (const std::int32_t k : particles_near(places, x, y, action)) is_wanted[static_cast<std::size_t>(k)] = 1;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const SurfaceCurves::Range curve = curves.curve(c);
+    for (std::size_t k = curve.first; k < curve.last; ++k)
+      if (share.node_row[k] >= 0) is_wanted[curve.previous(k)] = is_wanted[k] = is_wanted[curve.next(k)] = 1;
+  }
+  return is_wanted;
+}
+
+/// Collects for each row the ranks it goes to.
+class Sends {
+ public:
+  explicit Sends(std::span<const std::int32_t> rows) : rows_(rows), ranks_(rows.size()) {}
+
+  std::vector<int>& of(std::int32_t row) {
+    return ranks_[static_cast<std::size_t>(std::lower_bound(rows_.begin(), rows_.end(), row) - rows_.begin())];
+  }
+  std::vector<RankRows> by_rank() {
+    std::map<int, RankRows> collected;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      std::vector<int>& ranks = ranks_[k];
+      std::sort(ranks.begin(), ranks.end());
+      ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+      for (const int rank : ranks) {
+        collected[rank].rank = rank;
+        collected[rank].rows.push_back(rows_[k]);
+      }
+    }
+    std::vector<RankRows> sends;
+    for (auto& [rank, rows] : collected) sends.push_back(std::move(rows));
+    return sends;
+  }
+
+ private:
+  std::span<const std::int32_t> rows_;  // ascending
+  std::vector<std::vector<int>> ranks_;
+};
+
+}  // namespace
+
+SurfaceShare share_of_surface(const Communicator& communicator, const FluidParticles& fluid,
+                              const Distribution& distribution, const SurfaceCurves& curves,
+                              std::span<const Vector> points, const SurfaceRange& range, int whole_at) {
+  SurfaceShare share;
+  const std::size_t owned = fluid.owned_count();
+  share.rows = particles_near(points, {fluid.detection_position.x.data(), owned},
+                              {fluid.detection_position.y.data(), owned}, range.action);
+  share.node_row = rows_of_nodes(fluid, curves, share.rows);
+  if (communicator.size() == 1 || whole_at == communicator.rank()) {
+    share.is_wanted.assign(curves.nodes.size(), 1);
+    if (communicator.size() == 1) return share;
+  } else {
+    share.is_wanted = wanted_points(fluid, curves, points, share, range.action);
+  }
+
+  // Who owns what is known of the places that particles had when they were distributed.
+  Sends sends(share.rows);
+  for (const std::int32_t row : share.rows) {
+    // A particle that shares a point with it is as far from that.
+    const Vector place = fluid.list_position.at(static_cast<std::size_t>(row));
+    distribution.other_ranks_within(place, 2.0 * range.action + range.looseness, sends.of(row));
+  }
+  // A node that is wanted for its neighbour's sake has an own node of that rank, whose point acts on it, beside it.
+  constexpr int steps = steps_of_a_force + 1;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const SurfaceCurves::Range curve = curves.curve(c);
+    for (std::size_t k = curve.first; k < curve.last; ++k) {
+      const std::int32_t row = share.node_row[k];
+      if (row < 0) continue;
+      const auto at = static_cast<std::size_t>(row);
+      const Vector since_detection = fluid.list_position.at(at) - fluid.detection_position.at(at);
+      std::vector<int>& ranks = sends.of(row);
+      if (whole_at >= 0 && whole_at != communicator.rank()) ranks.push_back(whole_at);
+      std::size_t s = k;
+      for (int step = 0; step < steps; ++step) s = curve.previous(s);
+      for (int step = -steps; step <= steps; ++step, s = curve.next(s))
+        distribution.other_ranks_within(points[s] + since_detection, range.action + range.looseness, ranks);
+    }
+  }
+  share.sends = sends.by_rank();
+  return share;
+}
+
+}  // namespace sphdrop
