@@ -37,7 +37,8 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
   }
   std::vector<std::int32_t> surface_rows;
   if (is_distributed_)
-    for (const SurfaceTensionStep::OwnNode& own : surface_tension_.own_nodes()) surface_rows.push_back(own.row);
+    for (const SurfaceTensionStep::OwnNode& own : surface_tension_.own_nodes())
+      surface_rows.push_back(static_cast<std::int32_t>(own.row));
   surface_is_dealt_out_ = surface_is_dealt_out_ || deals_out_surface;
   const bool solid_has_changed = distribution_.redistribute(fluid_, solid_, surface_rows, forced || deals_out_surface);
   solid_is_predicted_ = liquid_is_predicted_ = false;

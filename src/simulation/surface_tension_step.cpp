@@ -48,13 +48,13 @@ void SurfaceTensionStep::detect(FluidParticles& fluid, const SolidParticles& sol
   if (has_curves_) {
     place_points(fluid);
     if (is_wetting_) contact.gather_boundary(solid);
-    old = extent_on_all_ranks(contact);
+    old = extent_on_all_ranks(contact, gauge_pressure != 0.0);
   }
   fluid.for_each_owned([&](std::size_t row) { fluid.detection_position.set(row, fluid.position.at(row)); });
   find_arcs(fluid, distribution);
   regather(fluid, contact, distribution);
   if (has_curves_) {
-    const Extent present = extent_on_all_ranks(contact);
+    const Extent present = extent_on_all_ranks(contact, gauge_pressure != 0.0);
     reconnected_length_ += present.length - old.length;
     reconnected_base_ += present.base - old.base;
     reconnected_gauge_energy_ -= gauge_pressure * (present.area - old.area);
@@ -112,19 +112,22 @@ void SurfaceTensionStep::add_area(QuantisedSum& area) const {
   for (const OwnNode& own : own_nodes_) area.add(area_of(own, points_));
 }
 
-SurfaceTensionStep::Extent SurfaceTensionStep::extent_on_all_ranks(const ContactStep& contact) {
-  std::array<ExactSum, 2> sums;
+SurfaceTensionStep::Extent SurfaceTensionStep::extent_on_all_ranks(const ContactStep& contact, bool needs_area) {
+  // A drop's outline is far below 2^17 spacings, and what comes or goes of it far above 2^-34 of one.
+  QuantisedSum curve_length(0x1p-34 * spacing_);
+  ExactSum area;
   for (const OwnNode& own : own_nodes_) {
-    sums[0].add(length(points_[own.next] - points_[own.node]));
-    sums[1].add(area_of(own, points_));
+    curve_length.add(length(points_[own.next] - points_[own.node]));
+    if (needs_area) area.add(area_of(own, points_));
   }
-  ExactSum::reduce(sums, communicator_);
+  if (needs_area) ExactSum::reduce({&area, 1}, communicator_);
   std::vector<double> base(1, 0.0);
   if (is_wetting_) {
     if (works_on_adhesion()) base[0] = adhesion_.base_width(curves_, points_, contact.boundary(), adhesion_parameters_);
     communicator_.broadcast(base, node_forces_.owner());
   }
-  return {sums[0].value(), base[0], sums[1].value()};
+  const auto quanta = static_cast<double>(communicator_.sum(curve_length.quanta()));
+  return {quanta * curve_length.quantum(), base[0], area.value()};
 }
 
 void SurfaceTensionStep::find_arcs(FluidParticles& fluid, Distribution& distribution) {
@@ -224,16 +227,16 @@ void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& cont
   const std::size_t collected = band_.size();
   x_.assign(collected + 1, ForceSharing::far_away);
   y_.assign(collected + 1, ForceSharing::far_away);
-  for (auto* column : {&mass_, &acceleration_x_, &acceleration_y_}) column->resize(collected);
-  energies_.resize(band_.own_rows().size());
-  band_.start(std::array<const void*, 3>{fluid.detection_position.x.data(), fluid.detection_position.y.data(),
-                                         fluid.mass.data()});
-  band_.finish(std::array<void*, 3>{x_.data(), y_.data(), mass_.data()});
+  band_.start(std::array<const void*, 2>{fluid.detection_position.x.data(), fluid.detection_position.y.data()});
+  band_.finish(std::array<void*, 2>{x_.data(), y_.data()});
+  inverse_mass_.clear();
+  for (const std::int32_t row : band_.own_rows())
+    inverse_mass_.push_back(1.0 / fluid.mass[static_cast<std::size_t>(row)]);
   take_piece(curves, piece_of_curves(curves, share.is_wanted, steps_of_a_force), share.node_row, contact.owner());
   place_nodes();
   surface_points(curves_, node_positions_, spacing_, points_);
-  sharing_.rebuild(points_, std::span(x_).first(collected), std::span(y_).first(collected), mass_,
-                   band_.order().by_id(), action);
+  sharing_.rebuild(points_, std::span(x_).first(collected), std::span(y_).first(collected), band_.order().by_id(),
+                   action);
   if (works_on_adhesion()) adhesion_.rebuild(node_positions_, contact.boundary(), adhesion_reach_);
 }
 
@@ -243,6 +246,7 @@ void SurfaceTensionStep::take_piece(const SurfaceCurves& curves, CurvePiece piec
   beyond_ = std::move(piece.beyond);
   const std::size_t nodes = curves_.nodes.size();
   for (auto* by_node : {&node_positions_, &points_, &forces_, &turning_}) by_node->resize(nodes);
+  chords_.resize(nodes);
   node_place_.clear();
   for (const SurfaceCurves::Node& node : curves_.nodes) {
     node_place_.push_back(band_.order().place_of(node.particle));
@@ -255,8 +259,11 @@ void SurfaceTensionStep::take_piece(const SurfaceCurves& curves, CurvePiece piec
     const std::size_t first = curves.curve(static_cast<std::size_t>(piece.curve[c])).first;
     for (std::size_t k = curve.first; k < curve.last; ++k)
       if (const std::int32_t row = node_row[static_cast<std::size_t>(piece.number[k])]; row >= 0)
-        own_nodes_.push_back({k, curve.previous(k), curve.next(k), row, curves.nodes[first].centre});
+        own_nodes_.push_back({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(curve.previous(k)),
+                              static_cast<std::uint32_t>(curve.next(k)), static_cast<std::uint32_t>(row),
+                              curves.nodes[first].centre});
   }
+  energies_.resize(inverse_mass_.size() + own_nodes_.size());
   if (!is_wetting_) return;
   std::vector<std::int64_t> numbers(piece.number.begin(), piece.number.end());
   std::vector<std::int32_t> places(nodes);
@@ -277,7 +284,7 @@ void SurfaceTensionStep::receive() {
 
 void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
   place_nodes();
-  surface_points(curves_, node_positions_, spacing_, points_);
+  surface_points(curves_, node_positions_, spacing_, points_, chords_);
   if (form_ == SurfaceTensionForm::conservative)
     conservative_forces(curves_, points_, coefficient_, forces_);
   else
@@ -307,9 +314,7 @@ void SurfaceTensionStep::add_adhesion(ContactStep& contact) {
 }
 
 void SurfaceTensionStep::share() {
-  std::fill(acceleration_x_.begin(), acceleration_x_.end(), 0.0);
-  std::fill(acceleration_y_.begin(), acceleration_y_.end(), 0.0);
-  sharing_.share(points_, is_wetting_ ? all_forces_ : forces_, x_, y_, kernel_, acceleration_x_, acceleration_y_);
+  shares_ = sharing_.share(points_, is_wetting_ ? all_forces_ : forces_, x_, y_, kernel_);
 }
 
 void SurfaceTensionStep::finish(FluidParticles& fluid, double kick) {
@@ -322,21 +327,23 @@ void SurfaceTensionStep::finish(FluidParticles& fluid, double kick) {
   const std::span<const std::int32_t> rows = band_.own_rows();
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto row = static_cast<std::size_t>(rows[k]);
-    fluid.acceleration.x[row] += acceleration_x_[k];
-    fluid.acceleration.y[row] += acceleration_y_[k];
-    energies_[k] =
-        kick * mass_[k] * (acceleration_x_[k] * fluid.velocity.x[row] + acceleration_y_[k] * fluid.velocity.y[row]);
+    const Vector force = shares_[k];
+    fluid.acceleration.x[row] += force.x * inverse_mass_[k];
+    fluid.acceleration.y[row] += force.y * inverse_mass_[k];
+    energies_[k] = kick * (force.x * fluid.velocity.x[row] + force.y * fluid.velocity.y[row]);
   }
-  sharing_work_.add(energies_);
   account_for_points(fluid, kick);
+  sharing_work_.add(energies_);
 }
 
 void SurfaceTensionStep::account_for_points(const FluidParticles& fluid, double kick) {
   const std::vector<Vector>& forces = is_wetting_ ? all_forces_ : forces_;
-  turning_forces(curves_, node_positions_, spacing_, forces, turning_);
-  for (const OwnNode& own : own_nodes_) {
+  turning_forces(curves_, node_positions_, chords_, spacing_, forces, turning_);
+  const std::span<double> energies = std::span(energies_).subspan(inverse_mass_.size());
+  for (std::size_t k = 0; k < own_nodes_.size(); ++k) {
+    const OwnNode& own = own_nodes_[k];
     const Vector on_node = forces[own.node] + turning_[own.previous] - turning_[own.next];
-    sharing_work_.add(-kick * dot(on_node, fluid.velocity.at(static_cast<std::size_t>(own.row))));
+    energies[k] = -kick * dot(on_node, fluid.velocity.at(own.row));
   }
 }
 

@@ -48,8 +48,8 @@ class SurfaceTensionStep {
  public:
   /// A node whose particle lives here, of a curve that carries a force.
   struct OwnNode {
-    std::size_t node, previous, next;  ///< in this rank's piece
-    std::int32_t row;
+    std::uint32_t node, previous, next;  ///< in this rank's piece
+    std::uint32_t row;
     Vector curve_place;  ///< from where the area within its curve is counted, m
   };
 
@@ -146,7 +146,7 @@ class SurfaceTensionStep {
   struct Extent {
     double length = 0, base = 0, area = 0;  // m, m, m2
   };
-  Extent extent_on_all_ranks(const ContactStep& contact);
+  Extent extent_on_all_ranks(const ContactStep& contact, bool needs_area);
   bool works_on_adhesion() const { return is_wetting_ && node_forces_.owner() == communicator_.rank(); }
 
   const Communicator& communicator_;
@@ -168,8 +168,10 @@ class SurfaceTensionStep {
 
   // By place in the band (x_ and y_ end with a place far away).
   CollectedRows band_;
-  std::vector<double> x_, y_, mass_, acceleration_x_, acceleration_y_, displacement_x_, displacement_y_;
-  std::vector<double> energies_;  // scratch
+  std::vector<double> x_, y_, displacement_x_, displacement_y_;
+  std::vector<double> inverse_mass_;  // of the own rows in it
+  std::vector<double> energies_;      // that a step adds, of those rows and of the own nodes
+  std::span<const Vector> shares_;
 
   // This rank's piece of the curves, by node.
   SurfaceCurves curves_;
@@ -177,6 +179,7 @@ class SurfaceTensionStep {
   std::vector<OwnNode> own_nodes_;
   ForceSharing sharing_;
   std::vector<Vector> node_positions_, points_, forces_, turning_;
+  std::vector<double> chords_;
   std::vector<Vector> displaced_positions_, displaced_points_;
 
   // Where the solid attracts the liquid.

@@ -25,8 +25,8 @@ constexpr std::int32_t rounded_up(std::int32_t count) {
 }  // namespace
 
 void ForceSharing::rebuild(std::span<const Vector> centres, std::span<const double> x, std::span<const double> y,
-                           std::span<const double> masses, std::span<const std::int32_t> order, double reach) {
-  assert(x.size() == y.size() && masses.size() == x.size() && order.size() == x.size() && reach > 0.0);
+                           std::span<const std::int32_t> order, double reach) {
+  assert(x.size() == y.size() && order.size() == x.size() && reach > 0.0);
   const std::size_t nodes = centres.size();
   std::vector<double> node_x(nodes), node_y(nodes);
   for (std::size_t node = 0; node < nodes; ++node) {
@@ -36,22 +36,17 @@ void ForceSharing::rebuild(std::span<const Vector> centres, std::span<const doub
   const CellGrid grid(node_x, node_y, reach);
 
   pairs_.clear();
-  particles_.clear();
   candidate_count_.assign(nodes, 0);
   for (const std::int32_t i : order) {
     const Vector position = {x[static_cast<std::size_t>(i)], y[static_cast<std::size_t>(i)]};
-    const std::size_t before = pairs_.size();
     grid.for_each_near(position, [&](std::int32_t near_node) {
       const auto node = static_cast<std::size_t>(near_node);
       if (squared_length(position - centres[node]) > reach * reach) return;
       pairs_.push_back({near_node, i});
       ++candidate_count_[node];
     });
-    if (pairs_.size() > before) particles_.push_back(i);
   }
   shares_.resize(x.size() + 1);
-  inverse_mass_.resize(x.size());
-  std::transform(masses.begin(), masses.end(), inverse_mass_.begin(), [](double mass) { return 1.0 / mass; });
   force_per_weight_.resize(nodes);
   place_in_slices();
 }
@@ -93,20 +88,16 @@ void ForceSharing::place_in_slices() {
   weights_.assign(candidates_.size(), 0.0);
 }
 
-std::size_t ForceSharing::share(std::span<const Vector> points, std::span<const Vector> forces,
-                                std::span<const double> x, std::span<const double> y, const SmoothingKernel& kernel,
-                                std::span<double> acceleration_x, std::span<double> acceleration_y) {
+std::span<const Vector> ForceSharing::share(std::span<const Vector> points, std::span<const Vector> forces,
+                                            std::span<const double> x, std::span<const double> y,
+                                            const SmoothingKernel& kernel) {
   assert(points.size() == candidate_count_.size() && forces.size() == points.size());
-  if (points.empty()) return 0;
-  assert(x.size() == shares_.size() && y.size() == x.size() && x.back() == far_away && y.back() == far_away);
-  assert(acceleration_x.size() + 1 == x.size() && acceleration_y.size() + 1 == x.size());
-  std::visit([&](const auto& chosen) { evaluate_kernel(points, forces, x, y, chosen); }, kernel);
+  assert(x.size() == shares_.size() && y.size() == x.size());
+  assert(x.empty() || (x.back() == far_away && y.back() == far_away));
+  points_without_particles_ = 0;
+  if (!points.empty()) std::visit([&](const auto& chosen) { evaluate_kernel(points, forces, x, y, chosen); }, kernel);
   sum_over_points();
-  for (std::size_t i = 0; i < inverse_mass_.size(); ++i) {
-    acceleration_x[i] += shares_[i].x * inverse_mass_[i];
-    acceleration_y[i] += shares_[i].y * inverse_mass_[i];
-  }
-  return points_without_particles_;
+  return std::span<const Vector>(shares_).first(shares_.empty() ? 0 : shares_.size() - 1);
 }
 
 template <class Kernel>
@@ -114,7 +105,6 @@ template <class Kernel>
                                                     std::span<const double> x, std::span<const double> y,
                                                     const Kernel& kernel) {
   using std::sqrt;
-  points_without_particles_ = 0;
   const double* const candidate_x = x.data();
   const double* const candidate_y = y.data();
   for (std::size_t slice = 0; slice < slice_end_.size(); ++slice) {

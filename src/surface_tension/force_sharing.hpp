@@ -21,23 +21,21 @@ class ForceSharing {
  public:
   /// Finds for every node the particles within `reach` (m) of `centres`, by node: the surface points, with reach = 2h
   /// plus what a point and a particle may move towards each other until the next rebuild; or the nodes' particles, with
-  /// d/2 more. x, y (m) and masses (kg/m): of all particles that may take part; `order`: their indices, each once.
+  /// d/2 more. x, y (m): of all particles that may take part; `order`: their indices, each once.
   void rebuild(std::span<const Vector> centres, std::span<const double> x, std::span<const double> y,
-               std::span<const double> masses, std::span<const std::int32_t> order, double reach);
+               std::span<const std::int32_t> order, double reach);
 
   /// Of one more place that x and y hold for share(), m: its square is still finite, its distance from anything beyond
   /// any kernel's support.
   static constexpr double far_away = 1e150;
 
-  /// Adds the accelerations (m/s2) to x and y components. points (m) and forces (N/m): by node; the other arrays by
-  /// particle, as in rebuild, but for the place far_away at the end of x and y. Returns the number of points with no
-  /// particle within 2h, whose force is lost.
-  std::size_t share(std::span<const Vector> points, std::span<const Vector> forces, std::span<const double> x,
-                    std::span<const double> y, const SmoothingKernel& kernel, std::span<double> acceleration_x,
-                    std::span<double> acceleration_y);
+  /// The force on each particle, m_i a_i, N/m, until the next call. points (m) and forces (N/m): by node; x and y by
+  /// particle, as in rebuild, but for the place far_away at their end.
+  std::span<const Vector> share(std::span<const Vector> points, std::span<const Vector> forces,
+                                std::span<const double> x, std::span<const double> y, const SmoothingKernel& kernel);
 
-  /// All particles that are a candidate of some point, in the order given.
-  std::span<const std::int32_t> particles() const { return particles_; }
+  /// Of the last share(): points with no particle within 2h, whose force is lost.
+  std::size_t points_without_particles() const { return points_without_particles_; }
 
  private:
   void place_in_slices();
@@ -60,12 +58,10 @@ class ForceSharing {
   std::vector<std::int32_t> first_entry_;      ///< by node
   std::vector<std::int32_t> candidate_count_;  ///< by node
   std::vector<std::int32_t> candidates_;
-  std::vector<std::int32_t> particles_;
 
   // Scratch, by entry of candidates_, by node, and by particle.
   std::vector<double> weights_;
   std::vector<Vector> force_per_weight_;
-  std::vector<double> inverse_mass_;
   std::vector<Vector> shares_;  // and for the far-away place
   std::size_t points_without_particles_ = 0;
 };

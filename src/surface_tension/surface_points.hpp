@@ -14,11 +14,15 @@ namespace sphdrop {
 void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_positions, double spacing,
                     std::span<Vector> points);
 
+/// The same, and the lengths of those lines, which turning_forces() needs, m.
+void surface_points(const SurfaceCurves& curves, std::span<const Vector> node_positions, double spacing,
+                    std::span<Vector> points, std::span<double> chords);
+
 /// How forces on surface points come to act on the nodes they go with. A point moves with ds_k/dt = v_k + dn_k/dt d/2,
 /// and its neighbours on the curve turn its normal; so the forces' power is sum F_k . ds_k/dt = sum v_k . (F_k +
 /// T_{k-1} - T_{k+1}), with T_k what is worked out here: zero where the two neighbours are the same particle.
 /// Forces and turning by node, N/m.
-void turning_forces(const SurfaceCurves& curves, std::span<const Vector> node_positions, double spacing,
-                    std::span<const Vector> forces, std::span<Vector> turning);
+void turning_forces(const SurfaceCurves& curves, std::span<const Vector> node_positions, std::span<const double> chords,
+                    double spacing, std::span<const Vector> forces, std::span<Vector> turning);
 
 }  // namespace sphdrop

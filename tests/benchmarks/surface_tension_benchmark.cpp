@@ -155,7 +155,7 @@ void candidates(benchmark::State& state) {
   Drop drop;
   ForceSharing sharing;
   for (auto _ : state) {
-    sharing.rebuild(drop.points, drop.x, drop.y, drop.masses, drop.order, reach);
+    sharing.rebuild(drop.points, drop.x, drop.y, drop.order, reach);
     benchmark::ClobberMemory();
   }
   drop.report(state);
@@ -165,12 +165,11 @@ BENCHMARK(candidates)->Unit(benchmark::kMicrosecond);
 void sharing(benchmark::State& state) {
   Drop drop;
   ForceSharing sharing;
-  sharing.rebuild(drop.points, drop.x, drop.y, drop.masses, drop.order, reach);
+  sharing.rebuild(drop.points, drop.x, drop.y, drop.order, reach);
   const CubicSpline kernel(smoothing_length);
   for (auto* column : {&drop.x, &drop.y}) column->push_back(ForceSharing::far_away);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        sharing.share(drop.points, drop.forces, drop.x, drop.y, kernel, drop.acceleration_x, drop.acceleration_y));
+    benchmark::DoNotOptimize(sharing.share(drop.points, drop.forces, drop.x, drop.y, kernel));
     benchmark::ClobberMemory();
   }
   drop.report(state);

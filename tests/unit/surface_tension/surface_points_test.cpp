@@ -92,7 +92,12 @@ TEST(TurningForces, MakeThePowerOfTheForcesOnThePoints) {
     }
     surface_points(curves, earlier, spacing, before);
     surface_points(curves, later, spacing, after);
-    turning_forces(curves, nodes, spacing, forces, turning);
+    std::vector<double> chords(size);
+    Positions points(size), points_alone(size);
+    surface_points(curves, nodes, spacing, points, chords);
+    surface_points(curves, nodes, spacing, points_alone);
+    EXPECT_EQ(points, points_alone);
+    turning_forces(curves, nodes, chords, spacing, forces, turning);
     double power = 0, power_without = 0, expected = 0;
     for (std::size_t c = 0; c < curves.size(); ++c) {
       const SurfaceCurves::Range curve = curves.curve(c);
