@@ -23,12 +23,14 @@ class QuantisedSum {
   /// A term must be less than 2^51 quanta, and so must every sum; what is beyond loses its last digits.
   void add(double term) { sum_ += rounded(term); }
   void add(std::span<const double> terms) {
-    // Several sums side by side, so that none waits for another.
+    // Several sums side by side, so that none waits for another; the two loops are two steps of vectors.
     constexpr std::size_t width = 8;
-    std::array<double, width> sums{};
+    std::array<double, width> sums{}, multiples;
     std::size_t k = 0;
-    for (; k + width <= terms.size(); k += width)
-      for (std::size_t lane = 0; lane < width; ++lane) sums[lane] += rounded(terms[k + lane]);
+    for (; k + width <= terms.size(); k += width) {
+      for (std::size_t lane = 0; lane < width; ++lane) multiples[lane] = rounded(terms[k + lane]);
+      for (std::size_t lane = 0; lane < width; ++lane) sums[lane] += multiples[lane];
+    }
     for (; k < terms.size(); ++k) sum_ += rounded(terms[k]);
     for (const double sum : sums) sum_ += sum;
   }

@@ -18,7 +18,8 @@ void Simulation::redistribute_if_due(double largest_squared_displacement, double
   wants_displacements_ = solid_step_->is_total_lagrangian() &&
                          (largest_squared_displacement > 0.5 * allowed * allowed || contact_displacements_.has_value());
   // What the surface takes is known once it has been found: then the work is dealt out anew.
-  const bool deals_out_surface = surface_tension_.has_curves() && is_distributed_ && !surface_is_dealt_out_;
+  const bool deals_out_surface =
+      communicator_.size() > 1 && surface_tension_.has_curves() && is_distributed_ && !surface_is_dealt_out_;
   if (is_distributed_ && !forced && !deals_out_surface && lists_hold) {
     // Such a solid stays with its ranks, but the drop may come upon another part of it.
     const bool solid_has_moved = solid_squared_displacement > allowed * allowed;
