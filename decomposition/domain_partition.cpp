@@ -43,6 +43,16 @@ void for_each_edge(const CellIndex& index, Visit visit) {
 
 }  // namespace
 
+double cells_edge(double least_cells, int ranks, std::int64_t cells_per_rank, double least_edge) {
+  assert(ranks >= 1 && cells_per_rank >= 1 && least_edge > 0);
+  // Beyond that edge everything is in one cell anyway; it also ends the loop for any number.
+  constexpr double largest_multiple = 1 << 20;
+  const double wanted = static_cast<double>(cells_per_rank) * ranks;
+  double multiple = 1;
+  while (multiple < largest_multiple && least_cells >= wanted * (2 * multiple) * (2 * multiple)) multiple *= 2;
+  return multiple * least_edge;
+}
+
 DomainPartition::DomainPartition(const Communicator& communicator, double cell_size, double imbalance_threshold)
     : communicator_(&communicator),
       cell_size_(cell_size),
@@ -235,8 +245,12 @@ std::vector<int> DomainPartition::owners_of_parts(std::span<const std::int32_t> 
     is_taken[rank] = true;
   };
   for (const Overlap& o : merged) assign(static_cast<std::size_t>(o.part), static_cast<std::size_t>(o.rank));
-  for (std::size_t part = 0; part < ranks; ++part)
-    for (std::size_t rank = 0; rank < ranks; ++rank) assign(part, rank);
+  // Parts and ranks that are left are equally many: the lowest of each go together.
+  for (std::size_t part = 0, rank = 0; part < ranks; ++part) {
+    if (rank_of_part[part] != none) continue;
+    while (is_taken[rank]) ++rank;
+    assign(part, rank);
+  }
 
   std::vector<int> owners;
   for (const std::int32_t part : parts) owners.push_back(rank_of_part[static_cast<std::size_t>(part)]);

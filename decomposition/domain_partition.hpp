@@ -19,9 +19,16 @@ struct PartitionQuality {
   std::int64_t repartitions = 0;    ///< how often METIS has run
 };
 
+/// The edge of the cells for a partition among `ranks`, in the unit of `least_edge`: the largest power of two times
+/// `least_edge` with which `least_cells` cells of `least_edge` still are `cells_per_rank` for each rank, or
+/// `least_edge` if there are none so many. The table of cells has then between one and four times `cells_per_rank`
+/// entries for each rank, however many the points are, and a cell that is full has at most one part in `cells_per_rank`
+/// of a rank's share.
+double cells_edge(double least_cells, int ranks, std::int64_t cells_per_rank, double least_edge);
+
 /// The plane cut in square cells of a fixed size, the occupied ones each owned by a rank: METIS partitions the graph of
 /// occupied cells (vertex weight = load of the points in it, edges to the eight neighbours weighted by the points that
-/// would have to travel). The table of occupied cells is the same on every rank.
+/// would have to travel). The table of occupied cells is the same on every rank; cells_edge() keeps it small.
 class DomainPartition {
  public:
   /// Repartitions when the largest load exceeds `imbalance_threshold` times the mean. Throws std::invalid_argument

@@ -185,6 +185,7 @@ struct Case {
     double skin = 0;  ///< neighbour lists reach so far beyond 2h, in units of d
     double imbalance_threshold = 0;
     std::int64_t repartition_interval = 0;  ///< steps between forced repartitions; 0: none
+    std::int64_t cells_per_process = 0;     ///< cells that are dealt out are as wide as leaves so many
     bool operator==(const Parallel&) const = default;
   } parallel;
 

@@ -381,6 +381,8 @@ constexpr Parameter table[] = {
     {"parallel.repartition_interval", "", "steps",
      integer<&C::parallel, &C::Parallel::repartition_interval>(0, 0, most_steps),
      "steps between forced repartitions; 0 = none"},
+    {"parallel.cells_per_process", "", "-", integer<&C::parallel, &C::Parallel::cells_per_process>(256, 1, 1000000),
+     "particles are dealt out by cells as wide as the lists reach, or wider as long as a process has so many of them"},
 
     {"safety.speed_limit", "", "m/s",
      real<&C::safety, &C::Safety::speed_limit>(Automatic{"fluid.sound_speed"}, positive(10 * largest_speed)),

@@ -22,16 +22,33 @@ constexpr Loads loads_with_liquid{11, 10}, loads_with_rigid_drop{1, 20};
 // Cells are far cheaper.
 constexpr Loads cells_with_liquid{8, 1}, cells_with_rigid_drop{1, 2};
 
+Loads loads_of(bool drop_is_rigid, bool solid_is_total_lagrangian) {
+  return solid_is_total_lagrangian ? (drop_is_rigid ? cells_with_rigid_drop : cells_with_liquid)
+                                   : (drop_is_rigid ? loads_with_rigid_drop : loads_with_liquid);
+}
+
 }  // namespace
 
-Distribution::Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
-                           bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach)
+double partition_cell_edge(const Case& input, const InteractionRange& range, bool solid_is_total_lagrangian,
+                           std::size_t drop_particles, std::size_t solid_particles, int ranks) {
+  // Counted as so many of the costliest: then no cell is more than its part of a rank's share, whatever is in it.
+  const Loads loads = loads_of(input.drop.is_rigid(), solid_is_total_lagrangian);
+  const double load =
+      loads.drop * static_cast<double>(drop_particles) + loads.solid * static_cast<double>(solid_particles);
+  const double spacings = range.list_reach() / input.resolution.spacing;
+  const double cells = load / std::max(loads.drop, loads.solid) / (spacings * spacings);
+  return cells_edge(cells, ranks, input.parallel.cells_per_process, range.list_reach());
+}
+
+Distribution::Distribution(const Communicator& communicator, const InteractionRange& range, double cell_edge,
+                           double imbalance_threshold, bool drop_is_rigid, bool solid_is_total_lagrangian,
+                           double solid_reach)
     : communicator_(communicator),
       range_(range),
       drop_is_rigid_(drop_is_rigid),
       solid_is_total_lagrangian_(solid_is_total_lagrangian),
       solid_reach_(solid_reach),
-      partition_(communicator, range.list_reach(), imbalance_threshold) {}
+      partition_(communicator, cell_edge, imbalance_threshold) {}
 
 bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid,
                                 std::span<const std::int32_t> surface_rows, bool force) {
@@ -44,8 +61,7 @@ bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid,
       load.push_back(cost);
     });
   };
-  const Loads loads = solid_is_total_lagrangian_ ? (drop_is_rigid_ ? cells_with_rigid_drop : cells_with_liquid)
-                                                 : (drop_is_rigid_ ? loads_with_rigid_drop : loads_with_liquid);
+  const Loads loads = loads_of(drop_is_rigid_, solid_is_total_lagrangian_);
   collect(fluid, fluid.position, loads.drop);
   collect(solid, solid_is_total_lagrangian_ ? solid.reference_position : solid.position, loads.solid);
   // The liquid's come first, row after row.

@@ -28,14 +28,19 @@ struct InteractionRange {
   double largest_displacement() const { return 0.5 * skin; }
 };
 
+/// Edge of the cells that are dealt out, m: the lists' reach, or a multiple of it where there are so many particles
+/// that each rank still has input.parallel.cells_per_process.
+double partition_cell_edge(const Case& input, const InteractionRange& range, bool solid_is_total_lagrangian,
+                           std::size_t drop_particles, std::size_t solid_particles, int ranks);
+
 /// The particles' distribution over ranks, remade by redistribute() and used by every step in between.
 class Distribution {
  public:
   /// The particles of a drop that is rigid have no neighbours and no ghosts. A solid that is total-Lagrangian is dealt
   /// out by its places in the undeformed body: its particles stay where they are while it moves, and its ghosts are
-  /// those within `solid_reach`, m.
-  Distribution(const Communicator& communicator, const InteractionRange& range, double imbalance_threshold,
-               bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach);
+  /// those within `solid_reach`, m. `cell_edge`: of partition_cell_edge().
+  Distribution(const Communicator& communicator, const InteractionRange& range, double cell_edge,
+               double imbalance_threshold, bool drop_is_rigid, bool solid_is_total_lagrangian, double solid_reach);
 
   /// Collective. Moves every particle to the rank that owns its place (repartitioning if the loads ask for it, or
   /// `force`), makes ghosts of what other ranks hold within reach, and lists the neighbours. Needs the state columns of
@@ -57,6 +62,8 @@ class Distribution {
   const SlicedNeighbours& border_fluid() const { return border_fluid_; }
   const OffsetNeighbours& solid() const { return solid_; }
   const InteractionRange& range() const { return range_; }
+  /// Of the cells that are dealt out, m.
+  double cell_edge() const { return partition_.cell_size(); }
   const PartitionQuality& quality() const { return partition_.quality(); }
   /// Appends the ranks other than this one that own something within `reach` (m) of a place, as particles were dealt
   /// out: by the places of the liquid and of the solid, undeformed if it is total-Lagrangian.

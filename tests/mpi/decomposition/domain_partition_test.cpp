@@ -302,6 +302,29 @@ TEST_F(DomainPartitionTest, ReportsABadPositionOnAllRanks) {
   EXPECT_GT(partition.quality().occupied_cells, 0);
 }
 
+TEST(CellsEdge, LeavesEachRankItsCells) {
+  for (const int ranks : {1, 2, 3, 16, 1000, 100000}) {
+    // Up to four times as many, the cells stay as they are.
+    for (const double cells : {0.0, 1.0, 256.0 * ranks, 1023.9 * ranks})
+      EXPECT_EQ(cells_edge(cells, ranks, 256, 0.3), 0.3);
+    double last = 0;
+    for (double cells = 1024.0 * ranks; cells < 1e12; cells *= 1.7) {
+      const double edge = cells_edge(cells, ranks, 256, 0.3);
+      const double multiple = edge / 0.3;
+      int exponent = 0;
+      EXPECT_EQ(std::frexp(multiple, &exponent), 0.5) << "a power of two, not " << multiple;
+      EXPECT_GE(multiple, 2);
+      EXPECT_GE(edge, last);
+      last = edge;
+      const double left = cells / (multiple * multiple) / ranks;
+      EXPECT_TRUE(left >= 256 && left < 1024) << left << " of " << cells << " on " << ranks;
+    }
+  }
+  EXPECT_EQ(cells_edge(40, 2, 5, 1.0), 2.0);
+  EXPECT_EQ(cells_edge(39, 2, 5, 1.0), 1.0);
+  EXPECT_EQ(cells_edge(1e300, 1, 1, 1.0), 1 << 20) << "it ends";
+}
+
 TEST_F(DomainPartitionTest, RefusesImpossibleSettings) {
   EXPECT_THROW(DomainPartition(communicator, 0, 1.1), std::invalid_argument);
   EXPECT_THROW(DomainPartition(communicator, std::nan(""), 1.1), std::invalid_argument);

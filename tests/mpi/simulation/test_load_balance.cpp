@@ -27,13 +27,17 @@ double imbalance(const Simulation& simulation, const Work& work) {
 }
 
 // Of a drop at 25 um spacing, with what is written of mode and solid.
-double imbalance_of(const std::string& mode, const std::string& diameter, const std::string& solid, const Work& work) {
+// `smallest_cells`: how many times the lists' reach a cell must at least be wide.
+double imbalance_of(const std::string& mode, const std::string& diameter, const std::string& solid, const Work& work,
+                    double smallest_cells = 1) {
   const Communicator communicator(MPI_COMM_WORLD);
   const std::string text =
       mode + "[resolution]\nspacing = 2.5e-5\n[time]\nend = 1e-3\n[drop]\ndiameter = " + diameter + "\n" + solid;
   const Case input = parse_case_text(text, "test.cfg").values;
   const InitialState initial = build_initial_state(input);
   Simulation simulation(communicator, input, initial.fluid, initial.solid);
+  const double cells = simulation.distribution().cell_edge() / simulation.distribution().range().list_reach();
+  EXPECT_GE(cells, smallest_cells);
   simulation.evaluate();
   // The surface has been found. Its nodes count from the next step on.
   simulation.move();
@@ -52,6 +56,18 @@ TEST(LoadBalance, OfADropOnABeamOfParticles) {
 
 TEST(LoadBalance, OfADropAlone) {
   EXPECT_LE(imbalance_of("", "2e-3", "", {0.9, 1.0}), 1.05);
+}
+
+// 5027 particles fill 690 cells as wide as the lists reach, 20107 four times as many: the same 172 as cells four times as
+// wide.
+TEST(LoadBalance, OfLargerCells) {
+  const auto coarse = [](int cells) { return "[parallel]\ncells_per_process = " + std::to_string(cells) + "\n"; };
+  const int ranks = Communicator(MPI_COMM_WORLD).size();
+  EXPECT_LE(imbalance_of("", "2e-3", coarse(160 / ranks), {0.9, 1.0}, 2), 1.05);
+  EXPECT_LE(imbalance_of("", "4e-3", coarse(160 / ranks), {0.9, 1.0}, 4), 1.05);
+  EXPECT_LE(imbalance_of("mode = \"modern\"\n", "2e-3",
+                         "[solid]\nkind = \"cantilever\"\nlength = 16e-3\n" + coarse(160 / ranks), {0.125, 1.0}, 2),
+            1.05);
 }
 
 TEST(LoadBalance, OfADropOnABeamOfCells) {

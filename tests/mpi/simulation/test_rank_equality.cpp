@@ -387,6 +387,20 @@ TEST(ListEquality, NorDoesItForCells) {
   expect_equal(thin, thick, "skin");
 }
 
+// Nor may the size of the cells that are dealt out: as few of them as ranks, several lists' reach wide.
+TEST(CellEquality, TheCellsDoNotMatter) {
+  const Communicator world(MPI_COMM_WORLD), self(MPI_COMM_SELF);
+  for (const char* text : {cantilever, oscillating_drop, modern_wall, rigid_ball}) {
+    const WholeState fine = run_steps(self, text, 150);
+    const WholeState coarse =
+        run_steps(world, text, 150, {"parallel.cells_per_process=1", "parallel.repartition_interval=29"});
+    if (world.rank() == 0) {
+      EXPECT_GT(coarse.redistributions, fine.redistributions);
+      expect_equal(fine, coarse, text);
+    }
+  }
+}
+
 TEST(Equality, AnotherCaseHasAnotherHash) {
   const Communicator world(MPI_COMM_WORLD);
   const WholeState one = run_steps(world, cantilever, 20);
