@@ -37,7 +37,7 @@ struct Simulation::Content {
 
   Content(MPI_Comm given, const sphdrop::Case& input, const Results* results, const RecordedRunOptions& options)
       : communicator(given), end(input.time.end) {
-    InitialState initial = build_initial_state(input);
+    InitialState initial = build_initial_state(input, {communicator.rank(), communicator.size()});
     if (results != nullptr)
       recorded.emplace(communicator, input, std::move(initial), options);
     else

@@ -40,7 +40,8 @@ struct RecordedRunOptions {
 class RecordedRun {
  public:
   /// Prepares the folder, holds it locked, and sets the simulation up. Throws OutputDirectoryError, RestartError,
-  /// RunRecordError and HistoryError. The initial state is let go as soon as each rank has its part of it.
+  /// RunRecordError and HistoryError. Of the drop only this rank's share is needed. The initial state is let go as soon
+  /// as the simulation has it.
   RecordedRun(const Communicator& communicator, const Case& input, InitialState initial,
               const RecordedRunOptions& options);
 

@@ -71,7 +71,7 @@ int run_case(const Communicator& communicator, const CommandLine& command, const
     say(communicator, stdout, effective_case_text(input));
     return success;
   }
-  InitialState initial = build_initial_state(input);
+  InitialState initial = build_initial_state(input, {communicator.rank(), communicator.size()});
   for (const std::string& warning : initial.warnings) say(communicator, stderr, "warning: " + warning + "\n");
   if (command.action == CommandLine::Action::check) {
     const std::string report = check_case(communicator, input, initial);

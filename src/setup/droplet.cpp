@@ -1,88 +1,90 @@
 #include "setup/droplet.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "particles/elementary_functions.hpp"
-#include "setup/split_mix.hpp"
 
 namespace sphdrop {
+namespace {
 
-DropParticles round_drop_of_rings(double radius, double spacing, double density) {
-  constexpr double pi = std::numbers::pi;
-  // In fractions of a turn. Successive rings are turned by an irrational part of a turn, so that they never line up.
-  constexpr double golden_angle = 0.3819660112501051;
-  const int ring_count = std::max(1, static_cast<int>(std::floor(radius / spacing + 0.5)));
-  const double ring_spacing = radius / ring_count;
-  DropParticles drop;
-  for (int k = 0; k < ring_count; ++k) {
-    const int count = static_cast<int>(std::floor(pi * (2 * k + 1) + 0.5));
-    const double annulus_area = pi * (2 * k + 1) * (ring_spacing * ring_spacing);
-    const double ring_radius = (k + 0.5) * ring_spacing;
-    for (int j = 0; j < count; ++j) {
-      const double turns = static_cast<double>(j) / count + k * golden_angle;
-      const SineCosine direction = sine_cosine(2.0 * pi * (turns - std::floor(turns)));
-      drop.positions.push_back(ring_radius * Vector{direction.cosine, direction.sine});
-      drop.masses.push_back(density * annulus_area / count);
-    }
-  }
-  return drop;
+// A drop smaller than a cell is one particle.
+Drop lattice_drop(LatticeColumns columns, double mass) {
+  if (columns.count() == 0) return Drop(ListedParticles({Vector{}}, {mass}));
+  return Drop(std::move(columns));
 }
 
-DropParticles round_drop_of_lattice(double radius, double spacing, double density) {
-  DropParticles drop;
-  const int half_count = static_cast<int>(radius / spacing) + 1;
-  for (int column = -half_count; column < half_count; ++column) {
-    for (int row = -half_count; row < half_count; ++row) {
-      const Vector position{(column + 0.5) * spacing, (row + 0.5) * spacing};
-      if (squared_length(position) <= radius * radius) drop.positions.push_back(position);
-    }
-  }
-  // A drop smaller than a cell is one particle.
-  if (drop.positions.empty()) drop.positions.push_back({});
-  const double total = density * std::numbers::pi * radius * radius;
-  drop.masses.assign(drop.positions.size(), total / static_cast<double>(drop.positions.size()));
-  return drop;
+}  // namespace
+
+Drop::Drop(Arrangement arrangement) : arrangement_(std::move(arrangement)), line_begins_{0} {
+  std::visit(
+      [&](const auto& lines) {
+        double farthest = 0;
+        for (std::size_t l = 0; l < lines.line_count(); ++l) {
+          const auto line = lines.line(l);
+          line_begins_.push_back(line_begins_.back() + line.count());
+          if (line.count() == 0) continue;
+          const Box box = line.box();
+          farthest = std::max({farthest, std::abs(box.low.x), std::abs(box.low.y), box.high.x, box.high.y});
+        }
+        rounding_ = 1e-12 * farthest;
+      },
+      arrangement_);
 }
 
-DropParticles elliptic_drop(double half_width, double half_height, double spacing, double density) {
-  DropParticles drop;
-  const int half_columns = static_cast<int>(half_width / spacing) + 1;
-  const int half_rows = static_cast<int>(half_height / spacing) + 1;
-  for (int column = -half_columns; column < half_columns; ++column) {
-    for (int row = -half_rows; row < half_rows; ++row) {
-      const Vector position{(column + 0.5) * spacing, (row + 0.5) * spacing};
-      const Vector scaled{position.x / half_width, position.y / half_height};
-      if (squared_length(scaled) <= 1.0) drop.positions.push_back(position);
-    }
-  }
-  if (drop.positions.empty()) drop.positions.push_back({});
-  const double total = density * std::numbers::pi * half_width * half_height;
-  drop.masses.assign(drop.positions.size(), total / static_cast<double>(drop.positions.size()));
-  return drop;
+void Drop::jitter(double amplitude, std::int64_t seed) {
+  jitter_amplitude_ = amplitude;
+  seed_ = static_cast<std::uint64_t>(seed);
 }
 
-DropParticles square_drop(double side, double spacing, double density) {
-  DropParticles drop;
-  const int count = std::max(1, static_cast<int>(std::floor(side / spacing + 0.5)));
-  const double cell = side / count;
-  for (int column = 0; column < count; ++column) {
-    for (int row = 0; row < count; ++row) {
-      // Half-integers are exact, and so is the symmetry about the centre.
-      drop.positions.push_back(cell * Vector{column + 0.5 - 0.5 * count, row + 0.5 - 0.5 * count});
-      drop.masses.push_back(density * cell * cell);
-    }
-  }
-  return drop;
+Box Drop::bounds() const {
+  Box bounds;
+  std::visit(
+      [&](const auto& lines) {
+        // From the end: of rings the outermost come first, and the others cannot add to them.
+        for (std::size_t l = lines.line_count(); l-- > 0;) {
+          const IdRange line{line_begins_[l], line_begins_[l + 1]};
+          if (line.count() == 0 || bounds.contains(lines.line(l).box().grown_by(jitter_bound()))) continue;
+          for_each(line, [&](std::int64_t, Vector position, double) { bounds.include(position); });
+        }
+      },
+      arrangement_);
+  return bounds;
 }
 
-void jitter_positions(std::vector<Vector>& positions, double amplitude, std::int64_t seed) {
-  SplitMix64 random(static_cast<std::uint64_t>(seed));
-  for (Vector& position : positions) {
-    position.x += amplitude * random.next_symmetric();
-    position.y += amplitude * random.next_symmetric();
-  }
+bool Drop::is_near(Vector place, double distance) const {
+  // Both coordinates may be off by the bound.
+  const double reach = distance + 1.5 * jitter_bound();
+  return std::visit([&](const auto& lines) { return lines.is_near(place, reach); }, arrangement_);
+}
+
+DropParticles Drop::all() const {
+  DropParticles all;
+  all.positions.reserve(static_cast<std::size_t>(count()));
+  all.masses.reserve(static_cast<std::size_t>(count()));
+  for_each([&](std::int64_t, Vector position, double mass) {
+    all.positions.push_back(position);
+    all.masses.push_back(mass);
+  });
+  return all;
+}
+
+Drop round_drop_of_rings(double radius, double spacing, double density) {
+  return Drop(Rings(radius, spacing, density));
+}
+
+Drop round_drop_of_lattice(double radius, double spacing, double density) {
+  const double mass = density * std::numbers::pi * radius * radius;
+  return lattice_drop(LatticeColumns::disc(radius, spacing, mass), mass);
+}
+
+Drop elliptic_drop(double half_width, double half_height, double spacing, double density) {
+  const double mass = density * std::numbers::pi * half_width * half_height;
+  return lattice_drop(LatticeColumns::ellipse(half_width, half_height, spacing, mass), mass);
+}
+
+Drop square_drop(double side, double spacing, double density) {
+  return Drop(SquareColumns(side, spacing, density));
 }
 
 Vector oscillation_velocity(Vector from_centre, double amplitude, double decay_radius) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "setup/nearest_neighbour.hpp"
 #include "setup/setup_error.hpp"
@@ -88,28 +89,30 @@ std::vector<std::size_t> pieces_of(const std::vector<Vector>& positions, const G
 
 }  // namespace
 
-DropParticles drop_of_file(const Case& input) {
+Drop drop_of_file(const Case& input) {
   if (!input.drop.given) throw SetupError(fmt::format("{} has not been read", input.drop.particles_file));
   const GivenParticles& given = *input.drop.given.particles;
   const double d = input.resolution.spacing;
   const double density = input.drop.is_rigid() ? input.drop.density : input.fluid.density;
-  DropParticles drop;
-  drop.positions = positions_of(given);
-  const NearestNeighbours neighbours = nearest_neighbours(drop.positions);
+  std::vector<Vector> positions = positions_of(given);
+  const NearestNeighbours neighbours = nearest_neighbours(positions);
   refuse_other_spacing(given, neighbours, d);
   refuse_twins(given, neighbours, d);
   refuse_other_masses(given, density, d);
 
   const Point centre = given.centre();
-  for (Vector& position : drop.positions) position -= {centre.x, centre.y};
+  for (Vector& position : positions) position -= {centre.x, centre.y};
+  std::vector<Vector> velocities;
   for (std::size_t k = 0; k < given.velocity_x.size(); ++k)
-    drop.velocities.push_back({given.velocity_x[k], given.velocity_y[k]});
-  drop.masses = given.mass;
-  if (given.mass.empty()) {
+    velocities.push_back({given.velocity_x[k], given.velocity_y[k]});
+  std::vector<double> masses = given.mass;
+  if (masses.empty()) {
     const double radius = 0.5 * input.drop.diameter;
     const double total = density * std::numbers::pi * radius * radius;
-    drop.masses.assign(given.size(), total / static_cast<double>(given.size()));
+    masses.assign(given.size(), total / static_cast<double>(given.size()));
   }
+  Drop drop(ListedParticles(std::move(positions), std::move(masses)));
+  drop.set_velocities(std::move(velocities));
   return drop;
 }
 

@@ -13,7 +13,7 @@ namespace sphdrop {
 /// where it has none, equal ones that add up to rho pi D^2/4 with D = drop.diameter. Throws SetupError, with the
 /// particle's place in the file: where one is nearer to another than half a spacing, where their distances do not fit
 /// the spacing, and for a mass that does not fit it. `input` has one drop.
-DropParticles drop_of_file(const Case& input);
+Drop drop_of_file(const Case& input);
 
 /// What their author should know: that they are in pieces which are farther apart than the kernel reaches; or "".
 std::string doubt_of_file(const Case& input);

@@ -8,14 +8,26 @@
 
 #include "particles/plane_moments.hpp"
 #include "particles/vector.hpp"
+#include "rigid_body/mass_properties.hpp"
+#include "setup/box.hpp"
+#include "setup/share.hpp"
 
 namespace sphdrop {
 
-/// Shapes: [particles].
+/// The drop's particles, or those of a share of their ids. Shapes: [particles of the share].
 struct InitialFluid {
   std::vector<Vector> positions, velocities;
   std::vector<double> masses;
-  Vector centre;  ///< of the drop
+  std::int64_t first_id = 0;  ///< of the particles here
+
+  // Of the whole drop, on every process.
+  std::int64_t total = 0;  ///< number of particles
+  Vector centre;           ///< of the drop
+  Box bounds;              ///< the smallest that holds all particles
+  double rest_area = 0;    ///< the sum of mass over fluid.density by ascending id, m2
+  MassProperties as_body;  ///< of a rigid drop
+
+  IdRange ids() const { return {first_id, first_id + static_cast<std::int64_t>(positions.size())}; }
 };
 
 /// A corner of the contact surface, which moves with the mean of some particles and hands its force on to them by the

@@ -105,14 +105,10 @@ void refuse_near_solids(const InitialSolid& all, double distance) {
     }
 }
 
-double height_above_solids(const std::vector<InitialSolid>& solids, const std::vector<Vector>& from_centre,
-                           double centre_x, double gap, double radius) {
-  double lowest = infinity, left = infinity, right = -infinity;
-  for (const Vector& p : from_centre) {
-    lowest = std::min(lowest, p.y);
-    left = std::min(left, centre_x + p.x);
-    right = std::max(right, centre_x + p.x);
-  }
+double height_above_solids(const std::vector<InitialSolid>& solids, const Drop& drop, double centre_x, double gap,
+                           double radius) {
+  const Box box = drop.bounds();
+  const double lowest = box.low.y, left = centre_x + box.low.x, right = centre_x + box.high.x;
   if (solids.size() == 1 && solids.front().outline.empty()) return solids.front().top + gap + radius - lowest;
   const double clearance = gap + radius;
   double top = -infinity;
@@ -123,7 +119,7 @@ double height_above_solids(const std::vector<InitialSolid>& solids, const std::v
         "drop.placement = \"centre\" and drop.centre_y",
         left, right));
   const auto is_free = [&](double y) {
-    return std::all_of(from_centre.begin(), from_centre.end(), [&](const Vector& p) {
+    return drop.all_of([&](Vector p) {
       const Vector place{centre_x + p.x, y + p.y};
       return std::all_of(solids.begin(), solids.end(), [&](const InitialSolid& one) {
         if (one.outline.empty())

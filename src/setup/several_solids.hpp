@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "config/case.hpp"
+#include "setup/droplet.hpp"
 #include "setup/initial_particles.hpp"
 
 namespace sphdrop {
@@ -17,10 +18,10 @@ InitialSolid joined_solids(const std::vector<InitialSolid>& solids);
 /// Throws SetupError where particles of two bodies are nearer than `distance`, m.
 void refuse_near_solids(const InitialSolid& all, double distance);
 
-/// y (m) for the centre of a drop above x = `centre_x`, whose particles lie at `from_centre`, so that the nearest of
-/// them is `gap` + `radius` off the solids: of one solid with straight sides off its top, whatever is below; else as
-/// low as it gets from above the highest place below it. Throws SetupError where no solid is below it.
-double height_above_solids(const std::vector<InitialSolid>& solids, const std::vector<Vector>& from_centre,
-                           double centre_x, double gap, double radius);
+/// y (m) for the centre of a drop above x = `centre_x`, so that the nearest of its particles is `gap` + `radius` off
+/// the solids: of one solid with straight sides off its top, whatever is below; else as low as it gets from above the
+/// highest place below it. Throws SetupError where no solid is below it.
+double height_above_solids(const std::vector<InitialSolid>& solids, const Drop& drop, double centre_x, double gap,
+                           double radius);
 
 }  // namespace sphdrop

@@ -7,20 +7,18 @@
 
 namespace sphdrop {
 
-GaugePressureStep::GaugePressureStep(const Communicator& communicator, const Case& input,
-                                     std::span<const double> masses)
+GaugePressureStep::GaugePressureStep(const Communicator& communicator, const Case& input, const InitialFluid& initial)
     : is_enabled_(input.drop.is_liquid() && input.fluid.gauge_pressure == Switch::on),
       relaxation_time_(input.fluid.gauge_relaxation_time),
       lowest_(0.0 - input.fluid.ambient_pressure),
       rest_density_(input.fluid.density),
       inverse_squared_sound_speed_(1.0 / (input.fluid.sound_speed * input.fluid.sound_speed)),
       pressure_scale_(input.fluid.density * input.fluid.sound_speed * input.fluid.sound_speed),
-      particle_count_(static_cast<double>(masses.size())),
-      pending_(communicator) {
-  for (const double mass : masses) rest_area_ += mass / input.fluid.density;
-  // Several times the drop's area fits, and the nodes' parts of it, which are not all of one sign.
-  area_quantum_ = QuantisedSum(0x1p-44 * std::max(rest_area_, 1e-30)).quantum();
-}
+      particle_count_(static_cast<double>(initial.total)),
+      rest_area_(initial.rest_area),
+      // Several times the drop's area fits, and the nodes' parts of it, which are not all of one sign.
+      area_quantum_(QuantisedSum(0x1p-44 * std::max(rest_area_, 1e-30)).quantum()),
+      pending_(communicator) {}
 
 void GaugePressureStep::relax(FluidParticles& fluid, double step) {
   const double change = gauge_.relax(step, relaxation_time_);

@@ -8,6 +8,7 @@
 #include "decomposition/communicator.hpp"
 #include "fluid/gauge_pressure.hpp"
 #include "particles/fluid_particles.hpp"
+#include "setup/initial_particles.hpp"
 #include "simulation/surface_tension_step.hpp"
 
 namespace sphdrop {
@@ -17,8 +18,7 @@ namespace sphdrop {
 /// pressure; each further drop would have a gauge of its own.
 class GaugePressureStep {
  public:
-  /// `masses`: of the whole drop's particles, kg/m.
-  GaugePressureStep(const Communicator& communicator, const Case& input, std::span<const double> masses);
+  GaugePressureStep(const Communicator& communicator, const Case& input, const InitialFluid& initial);
 
   bool is_enabled() const { return is_enabled_; }
   /// p_ref at the present instant, Pa; 0 where it is not enabled. The same on every rank.
@@ -46,10 +46,9 @@ class GaugePressureStep {
  private:
   bool is_enabled_;
   double relaxation_time_, lowest_, rest_density_, inverse_squared_sound_speed_;
-  double rest_area_ = 0, area_ = 0, adjustment_ = 0;
+  double pressure_scale_, particle_count_, rest_area_, area_quantum_;
+  double area_ = 0, adjustment_ = 0;
   GaugePressure gauge_;
-  double pressure_scale_, particle_count_;
-  double area_quantum_ = 0;  // m2
   PendingSum pending_;
 };
 

@@ -6,7 +6,7 @@
 #include "diagnostics/energy.hpp"
 #include "fluid/density_correction.hpp"
 #include "fluid/density_diffusion.hpp"
-#include "setup/initial_state.hpp"
+#include "setup/placed_drop.hpp"
 #include "simulation/particle_transport.hpp"
 #include "simulation/simulation.hpp"
 #include "sph/equation_of_state.hpp"

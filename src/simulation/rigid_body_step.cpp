@@ -4,7 +4,7 @@ namespace sphdrop {
 
 RigidBodyStep::RigidBodyStep(const Case& input, const InitialFluid& initial) : is_enabled_(input.drop.is_rigid()) {
   if (!is_enabled_) return;
-  body_ = RigidBody(mass_properties(initial.positions, initial.masses));
+  body_ = RigidBody(initial.as_body);
   body_.staggered_velocity = {input.drop.velocity_x, input.drop.velocity_y};
   body_.staggered_spin = input.drop.initial_spin;
 }

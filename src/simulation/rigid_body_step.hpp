@@ -16,7 +16,7 @@ namespace sphdrop {
 /// place in the body and gets position and velocity from there anew, so that the body never deforms.
 class RigidBodyStep {
  public:
-  /// `initial` is the whole drop. Does nothing for a liquid one.
+  /// Does nothing for a liquid drop.
   RigidBodyStep(const Case& input, const InitialFluid& initial);
 
   bool is_enabled() const { return is_enabled_; }

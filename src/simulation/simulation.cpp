@@ -58,19 +58,18 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
     : communicator_(communicator),
       case_(input),
       parameters_(input),
-      solid_step_(make_solid_step(input, parameters_.solid, initial_solid,
-                                  static_cast<std::int64_t>(initial_fluid.positions.size()))),
-      distribution_(
-          communicator, parameters_.range,
-          partition_cell_edge(input, parameters_.range, solid_step_->is_total_lagrangian(),
-                              initial_fluid.positions.size(), initial_solid.positions.size(), communicator.size()),
-          input.parallel.imbalance_threshold, input.drop.is_rigid(), solid_step_->is_total_lagrangian(),
-          solid_step_->is_total_lagrangian() ? solid_step_->reach() : parameters_.range.list_reach()),
+      solid_step_(make_solid_step(input, parameters_.solid, initial_solid, initial_fluid.total)),
+      distribution_(communicator, parameters_.range,
+                    partition_cell_edge(input, parameters_.range, solid_step_->is_total_lagrangian(),
+                                        static_cast<std::size_t>(initial_fluid.total), initial_solid.positions.size(),
+                                        communicator.size()),
+                    input.parallel.imbalance_threshold, input.drop.is_rigid(), solid_step_->is_total_lagrangian(),
+                    solid_step_->is_total_lagrangian() ? solid_step_->reach() : parameters_.range.list_reach()),
       fluid_sweep_(parameters_.fluid_pair),
-      gauge_(communicator, input, initial_fluid.masses),
+      gauge_(communicator, input, initial_fluid),
       shifting_(communicator, input, parameters_.kernel),
       surface_tension_(communicator, input, parameters_.kernel),
-      contact_(communicator, input, initial_solid, static_cast<std::int64_t>(initial_fluid.positions.size())),
+      contact_(communicator, input, initial_solid, initial_fluid.total),
       rigid_body_(input, initial_fluid),
       maxima_(communicator),
       drop_centre_(initial_fluid.centre),
@@ -100,18 +99,16 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
 }
 
 void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSolid& solid) {
-  fluid_total_ = static_cast<std::int64_t>(fluid.positions.size());
+  fluid_total_ = fluid.total;
   solid_total_ = static_cast<std::int64_t>(solid.positions.size());
   // Any share will do: the first redistribution sends every particle home.
-  const auto share = [&](std::int64_t total) {
-    const std::int64_t rank = communicator_.rank(), ranks = communicator_.size();
-    return std::pair(total * rank / ranks, total * (rank + 1) / ranks);
-  };
-  const auto [fluid_first, fluid_last] = share(fluid_total_);
+  const Share share{communicator_.rank(), communicator_.size()};
+  const auto [fluid_first, fluid_last] = share.of(fluid_total_);
+  assert(fluid.ids().contains(share.of(fluid_total_)));
   fluid_.resize(static_cast<std::size_t>(fluid_last - fluid_first));
   if (fluid_last > fluid_first) fluid_.owned = {{0, static_cast<std::int32_t>(fluid_last - fluid_first)}};
   for (std::int64_t k = fluid_first; k < fluid_last; ++k) {
-    const auto row = static_cast<std::size_t>(k - fluid_first), source = static_cast<std::size_t>(k);
+    const auto row = static_cast<std::size_t>(k - fluid_first), source = static_cast<std::size_t>(k - fluid.first_id);
     fluid_.id[row] = k;
     fluid_.mass[row] = fluid.masses[source];
     fluid_.position.set(row, fluid.positions[source]);
@@ -119,7 +116,7 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
     fluid_.staggered_velocity.set(row, fluid.velocities[source]);
     fluid_.staggered_density[row] = case_.drop.is_rigid() ? case_.drop.density : case_.fluid.density;
   }
-  const auto [solid_first, solid_last] = share(solid_total_);
+  const auto [solid_first, solid_last] = share.of(solid_total_);
   solid_.resize(static_cast<std::size_t>(solid_last - solid_first));
   if (solid_last > solid_first) solid_.owned = {{0, static_cast<std::int32_t>(solid_last - solid_first)}};
   solids_ = solid_bodies(solid, fluid_total_);
@@ -145,16 +142,11 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
   for (const std::int32_t index : solid.deflection_probe) deflection_probe_.push_back(fluid_total_ + index);
   for (const std::int32_t index : solid.middle_probe) middle_probe_.push_back(fluid_total_ + index);
 
-  box_low_ = {infinity, infinity};
-  box_high_ = {-infinity, -infinity};
-  for (const auto* positions : {&fluid.positions, &solid.positions})
-    for (const Vector& p : *positions) {
-      box_low_ = {std::min(box_low_.x, p.x), std::min(box_low_.y, p.y)};
-      box_high_ = {std::max(box_high_.x, p.x), std::max(box_high_.y, p.y)};
-    }
-  const Vector margin{case_.safety.domain_margin, case_.safety.domain_margin};
-  box_low_ -= margin;
-  box_high_ += margin;
+  Box box = fluid.bounds;
+  for (const Vector& p : solid.positions) box.include(p);
+  box = box.grown_by(case_.safety.domain_margin);
+  box_low_ = box.low;
+  box_high_ = box.high;
 }
 
 void Simulation::restore(const Checkpoint& checkpoint) {

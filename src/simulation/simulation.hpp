@@ -42,7 +42,7 @@ struct SafetyError : std::runtime_error {
 /// collective. Between the two the state at time() may be looked at.
 class Simulation {
  public:
-  /// `state` is the whole initial state, the same on every rank, which each keeps its part of.
+  /// `initial_fluid` is the whole drop or has at least this rank's share (rank, size) of its ids; the solid is whole.
   Simulation(const Communicator& communicator, const Case& input, const InitialFluid& initial_fluid,
              const InitialSolid& initial_solid);
 

@@ -52,7 +52,7 @@ void gather_state(const Communicator& communicator, const Set& set, std::vector<
 
 /// Collective over `communicator`.
 inline WholeState run_steps(const Communicator& communicator, const Case& input, int steps) {
-  const InitialState initial = build_initial_state(input);
+  const InitialState initial = build_initial_state(input, {communicator.rank(), communicator.size()});
   Simulation simulation(communicator, input, initial.fluid, initial.solid);
   WholeState state;
   for (int k = 0;; ++k) {

@@ -35,7 +35,7 @@ TEST(MassProperties, OfRingsConvergeToThoseOfADisc) {
   const double radius = 0.5 * diameter;
   const double mass = density * pi * radius * radius, inertia = 0.5 * mass * radius * radius;
   for (const int rings : {5, 10, 20, 40}) {
-    const MassProperties disc = of_particles(round_drop_of_rings(radius, radius / rings, density));
+    const MassProperties disc = of_particles(round_drop_of_rings(radius, radius / rings, density).all());
     EXPECT_NEAR(disc.mass / mass, 1.0, 1e-13) << rings;
     EXPECT_NEAR(disc.moment_of_inertia / inertia, 1.0 - 0.5 / (rings * rings), 1e-12) << rings;
     EXPECT_LT(length(disc.centre), 1e-13 * radius) << rings;
@@ -46,14 +46,14 @@ TEST(MassProperties, OfRingsConvergeToThoseOfADisc) {
 TEST(MassProperties, OfALatticeConvergeToThoseOfASquare) {
   const double mass = density * diameter * diameter, inertia = mass * diameter * diameter / 6.0;
   for (const int n : {4, 10, 40}) {
-    const MassProperties square = of_particles(square_drop(diameter, diameter / n, density));
+    const MassProperties square = of_particles(square_drop(diameter, diameter / n, density).all());
     EXPECT_NEAR(square.mass / mass, 1.0, 1e-13) << n;
     EXPECT_NEAR(square.moment_of_inertia / inertia, 1.0 - 1.0 / (n * n), 1e-12) << n;
   }
 }
 
 TEST(MassProperties, AreThoseOfTheBodyWhereverItIs) {
-  DropParticles drop = square_drop(diameter, diameter / 10, density);
+  DropParticles drop = square_drop(diameter, diameter / 10, density).all();
   const MassProperties here = of_particles(drop);
   for (Vector& position : drop.positions) position += Vector{0.02, -0.01};
   const MassProperties there = of_particles(drop);

@@ -35,7 +35,7 @@ Vector mass_centre(const DropParticles& drop) {
 }
 
 TEST(RingDrop, HasTheRingsOfItsDefinition) {
-  const DropParticles drop = round_drop_of_rings(radius, d, density);
+  const DropParticles drop = round_drop_of_rings(radius, d, density).all();
   std::size_t i = 0;
   for (int k = 0; k < 20; ++k) {
     const auto count = static_cast<std::size_t>(std::lround(2 * pi * (k + 0.5)));
@@ -55,7 +55,7 @@ TEST(RingDrop, HasTheRingsOfItsDefinition) {
 
 TEST(RingDrop, HasTheMassOfTheDiscForAnySpacing) {
   for (const double spacing : {0.05e-3, 0.04166667e-3, 0.033e-3, 0.025e-3, 0.7e-3, 2e-3}) {
-    const DropParticles drop = round_drop_of_rings(radius, spacing, density);
+    const DropParticles drop = round_drop_of_rings(radius, spacing, density).all();
     const double disc = density * pi * radius * radius;
     EXPECT_NEAR(total_mass(drop), disc, 1e-13 * disc) << spacing;
     EXPECT_NEAR(length(mass_centre(drop)), 0.0, 1e-14 * radius) << spacing;
@@ -64,11 +64,11 @@ TEST(RingDrop, HasTheMassOfTheDiscForAnySpacing) {
 
 TEST(RingDrop, KeepsParticlesApart) {
   for (const double spacing : {0.05e-3, 0.025e-3, 0.0125e-3})
-    EXPECT_GT(smallest_distance(round_drop_of_rings(radius, spacing, density).positions), 0.85 * spacing);
+    EXPECT_GT(smallest_distance(round_drop_of_rings(radius, spacing, density).all().positions), 0.85 * spacing);
 }
 
 TEST(RingDrop, SpacesParticlesEvenlyOnARing) {
-  const DropParticles drop = round_drop_of_rings(radius, d, density);
+  const DropParticles drop = round_drop_of_rings(radius, d, density).all();
   const std::size_t last_ring = drop.positions.size() - 123;  // round(39 pi)
   for (std::size_t i = last_ring; i + 1 < drop.positions.size(); ++i)
     EXPECT_NEAR(length(drop.positions[i + 1] - drop.positions[i]), 2 * 19.5 * d * std::sin(pi / 123), 1e-12 * radius);
@@ -77,7 +77,7 @@ TEST(RingDrop, SpacesParticlesEvenlyOnARing) {
 TEST(RingDrop, DoesNotLineUpFromRingToRing) {
   // A ray meets a particle, to within 0.1 d, of one ring in five; were the rings not turned, the x axis would meet
   // all 20.
-  const DropParticles drop = round_drop_of_rings(radius, d, density);
+  const DropParticles drop = round_drop_of_rings(radius, d, density).all();
   for (int direction = 0; direction < 3600; ++direction) {
     const double angle = direction * 2 * pi / 3600;
     int lined_up = 0;
@@ -90,7 +90,7 @@ TEST(RingDrop, DoesNotLineUpFromRingToRing) {
 }
 
 TEST(LatticeDrop, FillsTheDiscSymmetricallyWithEqualMasses) {
-  const DropParticles drop = round_drop_of_lattice(radius, d, density);
+  const DropParticles drop = round_drop_of_lattice(radius, d, density).all();
   std::set<std::pair<double, double>> places;
   for (const Vector& x : drop.positions) places.insert({x.x, x.y});
   EXPECT_EQ(places.size(), drop.positions.size());
@@ -112,7 +112,7 @@ TEST(LatticeDrop, FillsTheDiscSymmetricallyWithEqualMasses) {
 
 TEST(SquareDrop, IsALatticeOfCellCentres) {
   for (const double spacing : {0.05e-3, 0.02e-3, 0.03e-3}) {
-    const DropParticles drop = square_drop(1e-3, spacing, density);
+    const DropParticles drop = square_drop(1e-3, spacing, density).all();
     const int n = static_cast<int>(std::lround(1e-3 / spacing));
     ASSERT_EQ(drop.positions.size(), static_cast<std::size_t>(n * n));
     EXPECT_NEAR(total_mass(drop), density * 1e-6, 1e-13);
@@ -126,13 +126,13 @@ TEST(SquareDrop, IsALatticeOfCellCentres) {
 }
 
 TEST(Jitter, StaysWithinItsAmplitudeAndFollowsItsSeed) {
-  const std::vector<Vector> still(2000);
-  std::vector<Vector> first = still, same = still, other = still;
-  jitter_positions(first, 0.01, 7);
-  jitter_positions(same, 0.01, 7);
-  jitter_positions(other, 0.01, 8);
-  EXPECT_EQ(first, same);
-  EXPECT_NE(first, other);
+  // All at one place.
+  const auto moved = [](std::int64_t seed) {
+    Drop drop(ListedParticles(std::vector<Vector>(2000), std::vector<double>(2000, 1.0)));
+    drop.jitter(0.01, seed);
+    return drop.all().positions;
+  };
+  const std::vector<Vector> first = moved(7), same = moved(7), other = moved(8);
   Vector mean, mean_square;
   for (const Vector& x : first) {
     EXPECT_LE(std::max(std::abs(x.x), std::abs(x.y)), 0.01);
@@ -149,6 +149,12 @@ TEST(SplitMix64, GivesItsPublishedNumbers) {
   SplitMix64 random(1234567);
   EXPECT_EQ(random.next(), 6457827717110365317u);
   EXPECT_EQ(random.next(), 3203168211198807973u);
+  EXPECT_EQ(random.next(), 9817491932198370423u);
+}
+
+TEST(SplitMix64, SkipsToAnyOfThem) {
+  SplitMix64 random(1234567);
+  random.skip(2);
   EXPECT_EQ(random.next(), 9817491932198370423u);
 }
 
@@ -180,7 +186,7 @@ TEST(OscillationVelocity, IsContinuousAtTheCentre) {
 
 TEST(OscillationVelocity, HasNoMomentum) {
   for (const DropParticles& drop :
-       {round_drop_of_rings(radius, d, density), round_drop_of_lattice(radius, d, density)}) {
+       {round_drop_of_rings(radius, d, density).all(), round_drop_of_lattice(radius, d, density).all()}) {
     Vector momentum;
     double magnitude = 0, angular = 0;
     for (std::size_t i = 0; i < drop.masses.size(); ++i) {

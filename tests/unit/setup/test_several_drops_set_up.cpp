@@ -20,7 +20,7 @@ InitialState build(const std::string& drops, const std::string& solid = "") {
 
 TEST(Ellipse, HasItsMassAndMoments) {
   const double a = 0.6e-3, b = 0.4e-3;
-  const DropParticles drop = elliptic_drop(a, b, 1e-5, 1000);
+  const DropParticles drop = elliptic_drop(a, b, 1e-5, 1000).all();
   const double mass = std::accumulate(drop.masses.begin(), drop.masses.end(), 0.0);
   EXPECT_NEAR(mass, 1000 * std::numbers::pi * a * b, 1e-12);
   double xx = 0, yy = 0;

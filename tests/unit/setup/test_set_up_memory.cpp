@@ -1,0 +1,77 @@
+// What setting up takes: a share's particles and something for each line of them, however many the drop has.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "config/case_file.hpp"
+#include "setup/initial_state.hpp"
+
+namespace {
+
+std::size_t allocated = 0;  // bytes, never taken off again
+
+void* counted(std::size_t size) {
+  allocated += size;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace sphdrop {
+namespace {
+
+class SetUpMemory : public testing::TestWithParam<const char*> {};
+
+// A thousandth of ten million particles, 400 MB: 40 bytes each of the share's.
+TEST_P(SetUpMemory, FollowsTheShare) {
+  const Case input =
+      parse_case_text(std::string("[resolution]\nspacing = 2.5e-5\n[time]\nend = 1e-3\n") + GetParam(), "memory.cfg")
+          .values;
+  const std::size_t before = allocated;
+  const InitialState state = build_initial_state(input, {500, 1000});
+  const auto taken = static_cast<double>(allocated - before);
+  const auto total = static_cast<double>(state.fluid.total);
+  ASSERT_GT(total, 5e6);
+  EXPECT_LE(std::abs(static_cast<double>(state.fluid.positions.capacity()) - total / 1000), 1);
+  EXPECT_LE(std::abs(static_cast<double>(state.fluid.velocities.capacity()) - total / 1000), 1);
+  EXPECT_LE(std::abs(static_cast<double>(state.fluid.masses.capacity()) - total / 1000), 1);
+  // The solid that some have is of some 10 000 particles.
+  EXPECT_LT(taken, 0.025 * 40 * total);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfADrop, SetUpMemory,
+                         testing::Values("[drop]\ndiameter = 0.089\narrangement = \"rings\"\n",
+                                         "[drop]\ndiameter = 0.089\narrangement = \"lattice\"\njitter = 0.1\n",
+                                         "[drop]\ndiameter = 0.089\nshape = \"ellipse\"\naspect_ratio = 2\n",
+                                         "[drop]\ndiameter = 0.079\nshape = \"square\"\n",
+                                         "[drop]\ndiameter = 0.079\nshape = \"square\"\nmaterial = \"rigid\"\n"
+                                         "[solid]\nkind = \"rigid_wall\"\nlength = 0.1\n",
+                                         "[drop]\ndiameter = 0.089\n[solid]\nkind = \"cantilever\"\nlength = 16e-3\n",
+                                         "[[drop]]\ndiameter = 0.07\n[[drop]]\ndiameter = 0.05\ncentre_x = 0.0602\n"));
+
+}  // namespace
+}  // namespace sphdrop
