@@ -381,7 +381,7 @@ constexpr Parameter table[] = {
     {"parallel.repartition_interval", "", "steps",
      integer<&C::parallel, &C::Parallel::repartition_interval>(0, 0, most_steps),
      "steps between forced repartitions; 0 = none"},
-    {"parallel.cells_per_process", "", "-", integer<&C::parallel, &C::Parallel::cells_per_process>(256, 1, 1000000),
+    {"parallel.cells_per_process", "", "-", integer<&C::parallel, &C::Parallel::cells_per_process>(64, 1, 1000000),
      "particles are dealt out by cells as wide as the lists reach, or wider as long as a process has so many of them"},
 
     {"safety.speed_limit", "", "m/s",

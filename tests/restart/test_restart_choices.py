@@ -89,7 +89,7 @@ class Changes(RestartTest):
             "checkpoint.interval": ("4e-06", "7e-06"), "checkpoint.keep": ("2", "3"),
             "checkpoint.wall_interval": ("600", "0.05"), "parallel.skin": ("0.3", "0.5"),
             "parallel.repartition_interval": ("0", "50"), "parallel.imbalance_threshold": ("1.1", "1.02"),
-            "parallel.cells_per_process": ("256", "4"),
+            "parallel.cells_per_process": ("64", "4"),
             "safety.speed_limit": ("50", "60"), "safety.domain_margin": (None, "0.005"),
         }
         words = [word for key, (_, value) in changes.items() for word in ("--set", f"{key}={value}")]
