@@ -16,11 +16,12 @@ namespace {
 // particles have no pair sums. They are numbers of the program, not of the run: times of a run would follow whatever
 // else its machine does.
 struct Loads {
-  std::int32_t drop, solid;  // a node of the surface takes as long as one of the liquid, with its points and shares
+  std::int32_t drop, solid;
+  std::int32_t surface_node = 0;  // besides, with what it takes to find the surface now and then
 };
-constexpr Loads loads_with_liquid{11, 10}, loads_with_rigid_drop{1, 20};
+constexpr Loads loads_with_liquid{11, 10, 7}, loads_with_rigid_drop{1, 20};
 // Cells are far cheaper.
-constexpr Loads cells_with_liquid{8, 1}, cells_with_rigid_drop{1, 2};
+constexpr Loads cells_with_liquid{8, 1, 5}, cells_with_rigid_drop{1, 2};
 
 Loads loads_of(bool drop_is_rigid, bool solid_is_total_lagrangian) {
   return solid_is_total_lagrangian ? (drop_is_rigid ? cells_with_rigid_drop : cells_with_liquid)
@@ -65,7 +66,7 @@ bool Distribution::redistribute(FluidParticles& fluid, SolidParticles& solid,
   collect(fluid, fluid.position, loads.drop);
   collect(solid, solid_is_total_lagrangian_ ? solid.reference_position : solid.position, loads.solid);
   // The liquid's come first, row after row.
-  for (const std::int32_t row : surface_rows) load[static_cast<std::size_t>(row)] += loads.drop;
+  for (const std::int32_t row : surface_rows) load[static_cast<std::size_t>(row)] += loads.surface_node;
   partition_.update(x, y, load, force);
 
   std::vector<int> destination(x.size());

@@ -27,14 +27,15 @@ PAGE = FOLDER.parent / "SCALING.md"
 
 LIST_REACH = 2.7  # 2h + skin with h = 1.2 d, skin = 0.3 d
 BAND = 2.6  # rows of liquid that surface points act on, along the curve: 2h + 0.2 d
+LOOSENESS = 0.4  # of the distances by which ranks know who needs a particle of the band: a skin and a little
 PERIMETER = 4.85  # of a part, over the square root of its particles: fit(); a square's is 4
 COLUMN_BYTES = 8
 HALO_COLUMNS = 5  # position, velocity, density
-GATHERED_COLUMNS, RETURNED_COLUMNS = 4, 2  # positions and velocities to the interface's owner, accelerations back
-REDUCED_BYTES = 136
+BAND_COLUMNS = 2  # position
+REDUCED_BYTES = 120
 CONTRIBUTION_BYTES = 24  # what a rank says of a cell
+CELLS_OF_A_RANK = 64  # parallel.cells_per_process: a rank has so many at least, and less than four times as many
 ARC_BYTES = 96
-MOST_WEIGHED = 0.8  # of a mean share: what the owner's work counts for at most, as METIS cannot balance what outweighs one
 
 
 @dataclass(frozen=True)
