@@ -1,5 +1,6 @@
 #include "surface_tension/surface_force.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -7,16 +8,23 @@
 #include <string>
 
 #include "surface_tension/local_polynomial.hpp"
+#include "surface_tension/node_lanes.hpp"
 
 namespace sphdrop {
 
 namespace {
 
+template <class Real>
+Real length_of(const Components<Real>& segment) {
+  using std::sqrt;
+  return sqrt(segment.x * segment.x + segment.y * segment.y);
+}
+
 /// Unit vector from a to b; zero where they coincide, so that the sum round a curve still vanishes.
 Vector tangent(Vector a, Vector b) {
   const Vector segment = b - a;
-  const double squared = squared_length(segment);
-  return squared > 0.0 ? segment / std::sqrt(squared) : Vector{};
+  const double length = length_of(components(segment));
+  return length > 0.0 ? segment / length : Vector{};
 }
 
 /// The curve at a surface point: what it is bent by, and how much of it belongs to the point.
@@ -87,17 +95,25 @@ void check_polynomial_points(int polynomial_points) {
 
 }  // namespace
 
-void conservative_forces(const SurfaceCurves& curves, std::span<const Vector> points, double sigma,
-                         std::span<Vector> forces) {
+[[gnu::flatten]] void conservative_forces(const SurfaceCurves& curves, std::span<const Vector> points, double sigma,
+                                          std::span<Vector> forces) {
   assert(points.size() == curves.nodes.size() && forces.size() == points.size());
   for (std::size_t c = 0; c < curves.size(); ++c) {
     const SurfaceCurves::Range curve = curves.curve(c);
-    Vector incoming = tangent(points[curve.last - 1], points[curve.first]);
-    for (std::size_t k = curve.first; k < curve.last; ++k) {
-      const Vector outgoing = tangent(points[k], points[curve.next(k)]);
-      forces[k] = curve.carries_force() ? sigma * (outgoing - incoming) : Vector{};
-      incoming = outgoing;
-    }
+    // First the tangents that go out of the points.
+    const auto one = [&](std::size_t k) { forces[k] = tangent(points[k], points[curve.next(k)]); };
+    const auto many = [&](std::size_t k) {
+      const Components<Pack> segment = load_lanes(points, k + 1) - load_lanes(points, k);
+      const Pack length = length_of(segment);
+      if (!(hmin(length) > 0.0)) return false;
+      store_lanes({segment.x / length, segment.y / length}, forces, k);
+      return true;
+    };
+    for_each_node(curve, many, one);
+    const Vector before_first = forces[curve.last - 1];
+    for (std::size_t k = curve.last - 1; k > curve.first; --k) forces[k] = sigma * (forces[k] - forces[k - 1]);
+    forces[curve.first] = sigma * (forces[curve.first] - before_first);
+    if (!curve.carries_force()) std::fill(&forces[curve.first], &forces[curve.first] + curve.size(), Vector{});
   }
 }
 
