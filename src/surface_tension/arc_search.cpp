@@ -14,6 +14,15 @@ namespace {
 constexpr auto lanes = static_cast<std::size_t>(pack_size);
 constexpr double far_away = 1e150;  // its square is still finite
 
+/// In units of R: circles that come so near to a gap are looked at as if they reached into it. Far more than the
+/// directions' tolerance, whatever a circle's distance.
+constexpr double nearness = 1e-7;
+
+/// Up to a third of a turn. That of a lonely particle, whose ends are the same, is not.
+bool is_narrow(const Arc& gap) {
+  return cross(gap.start, gap.end) > 0.0 && dot(gap.start, gap.end) > -0.5;
+}
+
 }  // namespace
 
 ArcSearch::ArcSearch(double radius)
@@ -21,6 +30,7 @@ ArcSearch::ArcSearch(double radius)
       // A little more, so that no rounding of a rectangle's edge leaves out one that counts.
       near_reach_(std::sqrt(NearDirections<double>::squared_reach(radius)) * (1.0 + 1e-9)),
       reach_(2.0 * radius * (1.0 + 1e-9)),
+      squared_near_reach_(NearDirections<double>::squared_reach(radius)),
       finder_(radius) {}
 
 void ArcSearch::find(std::span<const double> x, std::span<const double> y, std::span<const std::int64_t> ids,
@@ -77,36 +87,76 @@ void ArcSearch::sort_by_cell(const CellGrid& grid, std::span<const double> x, st
   }
 }
 
+// What near neighbours leave uncovered is mostly the arc already: where they cover the circle, others change nothing,
+// and of these few come near the gap. So the walk round the circle is over the near ones, and once more if any others
+// cover a part of a gap, or come so near to it that rounding could matter. The arcs are those of a walk over all of
+// them.
 [[gnu::flatten]] void ArcSearch::find_arcs_of(const CellGrid& grid, std::size_t place, std::vector<Arc>& arcs) {
-  const Vector here{x_[place], y_[place]};
-  const double squared_reach = finder_.squared_reach();
-  bool lower_is_here = false;
   finder_.start();
-  grid.for_each_run({here.x - reach_, here.y - reach_}, {here.x + reach_, here.y + reach_}, [&](CellGrid::Run run) {
-    const std::size_t count = run.last - run.first;
-    if (squared_distances_.size() < count + lanes) {
-      squared_distances_.resize(count + lanes);
-      candidates_.resize(count + lanes);
-    }
-    for (std::size_t k = 0; k < count; k += lanes) {
-      const Pack x = load(&x_[run.first + k]) - Pack(here.x), y = load(&y_[run.first + k]) - Pack(here.y);
-      store(x * x + y * y, &squared_distances_[k]);
-    }
-    // Without branches: whether the next one is near enough cannot be foretold.
-    std::size_t found = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      candidates_[found] = k;
-      found += squared_distances_[k] < squared_reach ? 1 : 0;
-    }
-    for (std::size_t c = 0; c < found; ++c) {
-      const std::size_t k = candidates_[c], neighbour = run.first + k;
-      if (squared_distances_[k] > 0.0)
-        finder_.add(Vector{x_[neighbour], y_[neighbour]} - here, squared_distances_[k], ids_[neighbour]);
-      else
-        lower_is_here = lower_is_here || ids_[neighbour] < ids_[place];
+  if (!add_near(grid, place)) return;
+  gaps_.clear();
+  finder_.append_arcs(ids_[place], gaps_);
+  if (gaps_.empty()) return;
+  const bool are_narrow = std::all_of(gaps_.begin(), gaps_.end(), is_narrow);
+  const std::size_t near = finder_.added_count();
+  if (are_narrow)
+    for (const Arc& gap : gaps_) add_those_in(gap, grid, place);
+  else
+    add_all(grid, place);
+  if (are_narrow && finder_.added_count() == near)
+    arcs.insert(arcs.end(), gaps_.begin(), gaps_.end());
+  else
+    finder_.append_arcs(ids_[place], arcs);
+}
+
+[[gnu::always_inline]] inline bool ArcSearch::add_near(const CellGrid& grid, std::size_t place) {
+  const Vector here{x_[place], y_[place]}, corner{near_reach_, near_reach_};
+  bool lower_is_here = false;
+  grid.for_each_run(here - corner, here + corner, [&](CellGrid::Run run) {
+    for (std::size_t k = run.first; k < run.last; ++k) {
+      const Vector separation = Vector{x_[k], y_[k]} - here;
+      const double squared = squared_length(separation);
+      finder_.add_if(squared > 0.0 && squared < squared_near_reach_, separation, squared, ids_[k]);
+      lower_is_here |= squared == 0.0 && ids_[k] < ids_[place];
     }
   });
-  if (!lower_is_here) finder_.append_arcs(ids_[place], arcs);
+  return !lower_is_here;
+}
+
+[[gnu::always_inline]] inline void ArcSearch::add_those_in(const Arc& gap, const CellGrid& grid, std::size_t place) {
+  // A neighbour covers a direction if it is within R of the point of the circle there. Those that do, of directions in
+  // the gap, are within R of an arc, which bulges by its sagitta out of the rectangle between its ends.
+  const Vector here{x_[place], y_[place]};
+  const Vector start = here + radius_ * gap.start, end = here + radius_ * gap.end;
+  const double bulge = radius_ * (1.0 - 0.5 * length(gap.start + gap.end));
+  const double margin = nearness * radius_;
+  const double around = radius_ + bulge + 2.0 * margin;
+  const Vector low{std::min(start.x, end.x) - around, std::min(start.y, end.y) - around};
+  const Vector high{std::max(start.x, end.x) + around, std::max(start.y, end.y) + around};
+  const double inverse_diameter = 0.5 / radius_;
+  grid.for_each_run(low, high, [&](CellGrid::Run run) {
+    for (std::size_t k = run.first; k < run.last; ++k) {
+      const Vector separation = Vector{x_[k], y_[k]} - here;
+      const double squared = squared_length(separation);
+      // It covers one of the gap's ends, or its middle is in the gap.
+      const double depth = std::max(dot(gap.start, separation), dot(gap.end, separation)) - inverse_diameter * squared;
+      const double ahead = std::min(cross(gap.start, separation), cross(separation, gap.end));
+      const bool is_in = std::max(depth, ahead) >= -margin;
+      finder_.add_if(is_in && squared >= squared_near_reach_ && squared < finder_.squared_reach(), separation, squared,
+                     ids_[k]);
+    }
+  });
+}
+
+void ArcSearch::add_all(const CellGrid& grid, std::size_t place) {
+  const Vector here{x_[place], y_[place]}, corner{reach_, reach_};
+  grid.for_each_run(here - corner, here + corner, [&](CellGrid::Run run) {
+    for (std::size_t k = run.first; k < run.last; ++k) {
+      const Vector separation = Vector{x_[k], y_[k]} - here;
+      const double squared = squared_length(separation);
+      finder_.add_if(squared >= squared_near_reach_ && squared < finder_.squared_reach(), separation, squared, ids_[k]);
+    }
+  });
 }
 
 }  // namespace sphdrop

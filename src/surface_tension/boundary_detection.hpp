@@ -35,7 +35,8 @@ class ArcFinder {
             std::span<const Vector> neighbour_positions, std::vector<Arc>& arcs);
 
   /// The same in parts, for whoever goes through the neighbours anyway: for a new particle; a neighbour, from the
-  /// particle to it (m, not zero), with the square of its distance (m2), below squared_reach(); and the arcs.
+  /// particle to it (m, not zero), with the square of its distance (m2), below squared_reach(); and the arcs, after
+  /// which further neighbours may follow. One that is added twice counts as one.
   void start() { count_ = 0; }
   void add(Vector separation, double squared_distance, std::int64_t neighbour) {
     if (count_ == neighbours_.size()) make_room();
@@ -45,6 +46,12 @@ class ArcFinder {
     neighbours_[count_] = neighbour;
     ++count_;
   }
+  /// The same without a branch: the neighbour is added if it `counts`.
+  void add_if(bool counts, Vector separation, double squared_distance, std::int64_t neighbour) {
+    add(separation, squared_distance, neighbour);
+    count_ -= counts ? 0 : 1;
+  }
+  std::size_t added_count() const { return count_; }
   void append_arcs(std::int64_t particle, std::vector<Arc>& arcs);
   /// (4h)^2, a little less: circles that only touch cover nothing. m2.
   double squared_reach() const { return largest_squared_distance_; }
@@ -58,9 +65,10 @@ class ArcFinder {
   Vector start_of(Place k) const { return {start_x_[k], start_y_[k]}; }
   Vector end_of(Place k) const { return {end_x_[k], end_y_[k]}; }
   bool is_farther(Place a, Place b) const;
-  /// That with the least of values_, the lowest particle of several.
-  Place least_of_values() const;
-  Place nearest();
+  double least(const std::vector<double>& values) const;
+  /// Which of them has that value, the lowest particle of several.
+  Place place_of(double value, const std::vector<double>& values) const;
+  Place nearest() const;
   /// Whose cover `direction` is in and goes on farthest from there; count_ if none goes on.
   Place farthest_reaching(Vector direction);
   /// Whose cover starts first, counterclockwise from `direction`.
