@@ -80,9 +80,8 @@ void ArcSearch::sort_by_cell(const CellGrid& grid, std::span<const double> x, st
                           for (std::size_t k = run.first; k < run.last; ++k)
                             directions.add(Pack(x_[k]) - x, Pack(y_[k]) - y);
                         });
-      const Pack cover = directions.cover();
       for (std::size_t lane = 0; lane < count; ++lane)
-        if (!(cover[lane] > 0.0) && is_searched_[first + lane] != 0) open_.push_back(first + lane);
+        if (!directions.cover(lane) && is_searched_[first + lane] != 0) open_.push_back(first + lane);
     }
   }
 }
