@@ -30,11 +30,11 @@ class ArcSearch {
                     std::span<const std::int64_t> ids, std::size_t searched);
   void find_open(const CellGrid& grid);
   void find_arcs_of(const CellGrid& grid, std::size_t place, std::vector<Arc>& arcs);
-  /// To the finder, from 0 to near_reach_. Returns false where a particle with a lower id is at the same place.
-  bool add_near(const CellGrid& grid, std::size_t place);
-  /// From there on, those whose circles reach into a gap between the near ones' covers.
-  void add_those_in(const Arc& gap, const CellGrid& grid, std::size_t place);
-  void add_all(const CellGrid& grid, std::size_t place);
+  /// To the finder, those whose squared distance is at least `low` and below `high`, m2, both at most `reach` squared.
+  void add_between(double low, double high, double reach, const CellGrid& grid, Vector here);
+  /// Of those that are not near, those whose circles reach into a gap between the covers of near ones.
+  void add_those_in(const Arc& gap, const CellGrid& grid, Vector here);
+  bool lower_is_here(const CellGrid& grid, std::size_t place) const;
 
   double radius_;
   double near_reach_, reach_;  // m, of cells

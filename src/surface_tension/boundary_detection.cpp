@@ -1,6 +1,7 @@
 #include "surface_tension/boundary_detection.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -71,8 +72,8 @@ void ArcFinder::find(std::int64_t particle, Vector centre, std::span<const std::
   append_arcs(particle, arcs);
 }
 
-void ArcFinder::make_room() {
-  const std::size_t room = std::max<std::size_t>(2 * neighbours_.size(), 64);  // whole vectors, of any machine
+void ArcFinder::make_room(std::size_t wanted) {
+  const std::size_t room = std::max<std::size_t>(std::bit_ceil(wanted), 64);  // whole vectors, of any machine
   neighbours_.resize(room);
   for (auto* column :
        {&separation_x_, &separation_y_, &squared_distances_, &start_x_, &start_y_, &end_x_, &end_y_, &values_})
