@@ -30,9 +30,15 @@ class ArcSearch {
                     std::span<const std::int64_t> ids, std::size_t searched);
   void find_open(const CellGrid& grid);
   void find_arcs_of(const CellGrid& grid, std::size_t place, std::vector<Arc>& arcs);
+  /// To the finder, those whose squared distance is at least `low` and below `high`, m2, both at most `reach` squared.
+  void add_between(double low, double high, double reach, const CellGrid& grid, Vector here);
+  /// Of those that are not near, those whose circles reach into a gap between the covers of near ones.
+  void add_those_in(const Arc& gap, const CellGrid& grid, Vector here);
+  bool lower_is_here(const CellGrid& grid, std::size_t place) const;
 
   double radius_;
   double near_reach_, reach_;  // m, of cells
+  double squared_near_reach_;  // m2
   ArcFinder finder_;
 
   // The particles in the order of their cells, and some more that are far away, to fill up the last vector.
@@ -40,9 +46,8 @@ class ArcSearch {
   std::vector<std::int64_t> ids_;
   std::vector<char> is_searched_;
   std::vector<std::size_t> open_;  // places of those that are not surely inside
-  // Of the neighbours of one particle.
-  std::vector<double> squared_distances_;
-  std::vector<std::size_t> candidates_;
+  // Of one particle.
+  std::vector<Arc> gaps_;
 };
 
 }  // namespace sphdrop

@@ -1,6 +1,7 @@
 #include "surface_tension/boundary_detection.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -71,8 +72,8 @@ void ArcFinder::find(std::int64_t particle, Vector centre, std::span<const std::
   append_arcs(particle, arcs);
 }
 
-void ArcFinder::make_room() {
-  const std::size_t room = std::max<std::size_t>(2 * neighbours_.size(), 64);  // whole vectors, of any machine
+void ArcFinder::make_room(std::size_t wanted) {
+  const std::size_t room = std::max<std::size_t>(std::bit_ceil(wanted), 64);  // whole vectors, of any machine
   neighbours_.resize(room);
   for (auto* column :
        {&separation_x_, &separation_y_, &squared_distances_, &start_x_, &start_y_, &end_x_, &end_y_, &values_})
@@ -104,25 +105,36 @@ bool ArcFinder::is_farther(Place a, Place b) const {
                                                         : neighbours_[a] < neighbours_[b];
 }
 
-ArcFinder::Place ArcFinder::least_of_values() const {
+double ArcFinder::least(const std::vector<double>& values) const {
   using std::experimental::min;
-  Pack least_of_lane = load(values_.data());
-  for (std::size_t k = lanes; k < count_; k += lanes) least_of_lane = min(least_of_lane, load(&values_[k]));
-  const double least = hmin(least_of_lane);
+  Pack least_of_lane = load(values.data());
+  for (std::size_t k = lanes; k < count_; k += lanes) least_of_lane = min(least_of_lane, load(&values[k]));
+  return hmin(least_of_lane);
+}
+
+ArcFinder::Place ArcFinder::place_of(double value, const std::vector<double>& values) const {
+  // Mostly one has it: its place is the sum of the places of all that do.
+  const double* const of = values.data();
+  const auto end = static_cast<std::int64_t>(whole_vectors(count_));
+  std::int64_t holders = 0, places = 0;
+  for (std::int64_t k = 0; k < end; ++k) {
+    holders += of[k] == value ? 1 : 0;
+    places += of[k] == value ? k : 0;
+  }
+  if (holders == 1) return static_cast<Place>(places);
   Place best = count_;
   for (Place k = 0; k < count_; ++k)
-    if (values_[k] == least && (best == count_ || neighbours_[k] < neighbours_[best])) best = k;
+    if (of[k] == value && (best == count_ || neighbours_[k] < neighbours_[best])) best = k;
   return best;
 }
 
-ArcFinder::Place ArcFinder::nearest() {
-  std::copy_n(squared_distances_.begin(), whole_vectors(count_), values_.begin());
-  return least_of_values();
+ArcFinder::Place ArcFinder::nearest() const {
+  return place_of(least(squared_distances_), squared_distances_);
 }
 
 ArcFinder::Place ArcFinder::farthest_reaching(Vector direction) {
   const double *start_x = start_x_.data(), *start_y = start_y_.data(), *end_x = end_x_.data(), *end_y = end_y_.data();
-  double* cosines = values_.data();  // they fall with the angle, which is below half a turn
+  double* __restrict cosines = values_.data();  // they fall with the angle, which is below half a turn
   for (std::size_t k = 0; k < whole_vectors(count_); ++k) {
     const double cosine = direction.x * end_x[k] + direction.y * end_y[k];
     const double after_start = start_x[k] * direction.y - start_y[k] * direction.x;
@@ -130,20 +142,27 @@ ArcFinder::Place ArcFinder::farthest_reaching(Vector direction) {
     const double if_not_ended = before_end <= angle_tolerance ? out_of_reach : cosine;
     cosines[k] = after_start < -angle_tolerance ? out_of_reach : if_not_ended;
   }
-  const Place farthest = least_of_values();
-  return values_[farthest] < out_of_reach ? farthest : count_;
+  const double lowest = least(values_);
+  return lowest < out_of_reach ? place_of(lowest, values_) : count_;
 }
 
 ArcFinder::Place ArcFinder::first_to_start(Vector direction) {
   const double *start_x = start_x_.data(), *start_y = start_y_.data();
-  double* angles = values_.data();
+  double* __restrict angles = values_.data();
   for (std::size_t k = 0; k < whole_vectors(count_); ++k) angles[k] = angle_ahead(direction, start_x[k], start_y[k]);
-  return least_of_values();
+  return place_of(least(values_), values_);
 }
 
 ArcFinder::Place ArcFinder::farthest_with_direction(Place k, const std::vector<double>& x,
                                                     const std::vector<double>& y) const {
   const Vector wanted{x[k], y[k]};
+  const double *of_x = x.data(), *of_y = y.data();
+  std::int64_t holders = 0;
+  for (std::size_t j = 0; j < whole_vectors(count_); ++j) {
+    const bool is_parallel = std::abs(of_x[j] * wanted.y - of_y[j] * wanted.x) <= angle_tolerance;
+    holders += is_parallel && of_x[j] * wanted.x + of_y[j] * wanted.y > 0.0 ? 1 : 0;
+  }
+  if (holders == 1) return k;
   Place farthest = k;
   for (Place j = 0; j < count_; ++j)
     if (same_direction({x[j], y[j]}, wanted) && is_farther(j, farthest)) farthest = j;

@@ -34,17 +34,40 @@ class ArcFinder {
   void find(std::int64_t particle, Vector centre, std::span<const std::int64_t> neighbour_ids,
             std::span<const Vector> neighbour_positions, std::vector<Arc>& arcs);
 
-  /// The same in parts, for whoever goes through the neighbours anyway: for a new particle; a neighbour, from the
-  /// particle to it (m, not zero), with the square of its distance (m2), below squared_reach(); and the arcs.
+  /// The same in parts, for whoever goes through the neighbours anyway: for a new particle; neighbours; and the arcs,
+  /// after which further neighbours may follow. One that is added twice counts as one.
   void start() { count_ = 0; }
+  /// From the particle to a neighbour (m, not zero), with the square of its distance (m2), below squared_reach().
   void add(Vector separation, double squared_distance, std::int64_t neighbour) {
-    if (count_ == neighbours_.size()) make_room();
+    make_room_for(1);
     separation_x_[count_] = separation.x;
     separation_y_[count_] = separation.y;
     squared_distances_[count_] = squared_distance;
     neighbours_[count_] = neighbour;
     ++count_;
   }
+  /// Of those at (x, y) (m; shapes of x, y and ids: [n]), those whose squared distance from `centre` is at least `low`
+  /// and below `high`, which is at most squared_reach(), m2.
+  void add_between(double low, double high, Vector centre, std::span<const double> x, std::span<const double> y,
+                   std::span<const std::int64_t> ids) {
+    make_room_for(ids.size());
+    double *separation_x = separation_x_.data() + count_, *separation_y = separation_y_.data() + count_;
+    double* squared_distances = squared_distances_.data() + count_;
+    std::int64_t* neighbours = neighbours_.data() + count_;
+    // Without branches: whether the next one counts cannot be foretold.
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const Vector separation = Vector{x[k], y[k]} - centre;
+      const double squared = squared_length(separation);
+      separation_x[count] = separation.x;
+      separation_y[count] = separation.y;
+      squared_distances[count] = squared;
+      neighbours[count] = ids[k];
+      count += (squared >= low ? 1U : 0U) & (squared < high ? 1U : 0U);
+    }
+    count_ += count;
+  }
+  std::size_t added_count() const { return count_; }
   void append_arcs(std::int64_t particle, std::vector<Arc>& arcs);
   /// (4h)^2, a little less: circles that only touch cover nothing. m2.
   double squared_reach() const { return largest_squared_distance_; }
@@ -53,14 +76,18 @@ class ArcFinder {
   /// A neighbour, by its place among those added.
   using Place = std::size_t;
 
-  void make_room();
+  void make_room_for(std::size_t more) {
+    if (count_ + more > neighbours_.size()) make_room(count_ + more);
+  }
+  void make_room(std::size_t wanted);
   void find_covers();
   Vector start_of(Place k) const { return {start_x_[k], start_y_[k]}; }
   Vector end_of(Place k) const { return {end_x_[k], end_y_[k]}; }
   bool is_farther(Place a, Place b) const;
-  /// That with the least of values_, the lowest particle of several.
-  Place least_of_values() const;
-  Place nearest();
+  double least(const std::vector<double>& values) const;
+  /// Which of them has that value, the lowest particle of several.
+  Place place_of(double value, const std::vector<double>& values) const;
+  Place nearest() const;
   /// Whose cover `direction` is in and goes on farthest from there; count_ if none goes on.
   Place farthest_reaching(Vector direction);
   /// Whose cover starts first, counterclockwise from `direction`.

@@ -81,6 +81,46 @@ TEST(ArcSearch, HasTheBitsOfTheWalkOverAllParticles) {
   }
 }
 
+// What is far decides where near neighbours leave a gap: other bodies, thin ones, single particles.
+TEST(ArcSearch, FarNeighboursClosePartsOfGaps) {
+  std::size_t by_far_ones = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const double width = (1.2 + 0.09 * seed) * spacing;
+    Positions slit = together(
+        rectangle(9, 5), moved(rectangle(9, 3 - static_cast<int>(seed % 3)), {0.37 * spacing, 4.0 * spacing + width}));
+    jitter(slit, 0.1 * spacing, seed);
+    expect_arcs_of(slit);
+    Positions gas(30 + 10 * seed);
+    jitter(gas, (8.0 + 0.2 * seed) * spacing, seed);
+    expect_arcs_of(gas);
+    for (const Positions& positions : {slit, gas})
+      for (const Arc& arc : reference_arcs_of(positions))
+        if (length(positions[static_cast<std::size_t>(arc.next)] - positions[static_cast<std::size_t>(arc.particle)]) >
+            0.8 * circle_radius)
+          ++by_far_ones;
+  }
+  EXPECT_GT(by_far_ones, 1000U);
+}
+
+// Several circles meet in one point, on the lattice and across slits where gaps close or are about to.
+TEST(ArcSearch, OfSymmetricArrangementsAgreesWithEachByItself) {
+  for (int k = 0; k < 60; ++k) {
+    const Positions half = rectangle(8, 4);
+    const double width = k < 40 ? 0.125 * k : 4.8 + 1e-9 * (k - 50);
+    const Positions slit = together(half, moved(half, {k % 2 == 0 ? 0.0 : 0.5 * spacing, (3.0 + width) * spacing}));
+    ArcSearch finder(circle_radius);
+    expect_same(search(finder, slit, slit.size()), arcs_of(slit), slit, slit.size());
+  }
+  for (const Positions& positions :
+       {ring_disc(9), together(ring_disc(4), moved(ring_disc(4), {9.0 * spacing, 0.0})),
+        lattice(9, 0.0, [](double x, double y) { return x * x + y * y < 81 && x * x + y * y > 12; }),
+        lattice(9, 0.0,
+                [](double x, double y) { return std::abs(x) + std::abs(y) < 9 && std::abs(x) != std::abs(y); })}) {
+    ArcSearch finder(circle_radius);
+    expect_same(search(finder, positions, positions.size()), arcs_of(positions), positions, positions.size());
+  }
+}
+
 TEST(ArcSearch, FindsThemOfThoseSearchedOnly) {
   Positions drop = lattice_disc(8.0);
   jitter(drop, 0.15 * spacing, 3);

@@ -16,7 +16,7 @@ using namespace test;
 bool is_inside(const Positions& positions, std::size_t i) {
   NearDirections<double> directions(circle_radius);
   for (const Vector position : positions) directions.add(position.x - positions[i].x, position.y - positions[i].y);
-  return directions.cover() > 0.0;
+  return directions.cover();
 }
 
 /// How deep the shallowest of sampled points of particle i's circle lies inside another's, m; negative if it is outside
@@ -101,8 +101,8 @@ TEST(NearDirections, AreTheSameInEveryLane) {
     const Pack x([&](auto lane) { return place(lane).x; }), y([&](auto lane) { return place(lane).y; });
     NearDirections<Pack> directions(circle_radius);
     for (const Vector position : positions) directions.add(position.x - x, position.y - y);
-    const Pack cover = directions.cover();
-    for (std::size_t lane = 0; lane < lanes; ++lane) EXPECT_EQ(cover[lane] > 0.0, is_inside(positions, lane)) << seed;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      EXPECT_EQ(directions.cover(lane), is_inside(positions, lane)) << seed;
   }
 }
 
