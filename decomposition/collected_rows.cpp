@@ -28,4 +28,21 @@ void CollectedRows::finish(std::span<void* const> collected) {
   for (std::size_t c = 0; c < collected.size(); ++c) copy_rows(collected[c], columns_[c], own_rows_);
 }
 
+void CollectedRows::finish_pairs(double* collected) {
+  const std::size_t own = own_rows_.size();
+  first_.resize(size());
+  second_.resize(size());
+  plan_.finish(std::array<void*, 2>{first_.data(), second_.data()});
+  const auto* first = static_cast<const double*>(columns_[0]);
+  const auto* second = static_cast<const double*>(columns_[1]);
+  for (std::size_t k = 0; k < own; ++k) {
+    collected[2 * k] = first[own_rows_[k]];
+    collected[2 * k + 1] = second[own_rows_[k]];
+  }
+  for (std::size_t k = own; k < size(); ++k) {
+    collected[2 * k] = first_[k];
+    collected[2 * k + 1] = second_[k];
+  }
+}
+
 }  // namespace sphdrop

@@ -32,6 +32,8 @@ class CollectedRows {
   /// finishes, and must stay as they are until then.
   void start(std::span<const void* const> columns);
   void finish(std::span<void* const> collected);
+  /// Of two columns: their numbers of a place side by side, shape [size()][2].
+  void finish_pairs(double* collected);
 
   /// The messages to and from other ranks.
   const ExchangePlan& plan() const { return plan_; }
@@ -40,7 +42,8 @@ class CollectedRows {
   std::vector<std::int32_t> own_rows_;
   ExchangePlan plan_;
   IdOrder order_;
-  std::vector<const void*> columns_;  ///< of what is under way
+  std::vector<const void*> columns_;    ///< of what is under way
+  std::vector<double> first_, second_;  ///< scratch: what has arrived of pairs
 };
 
 }  // namespace sphdrop

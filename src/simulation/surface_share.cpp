@@ -10,6 +10,7 @@ namespace sphdrop {
 
 namespace {
 
+/// By node: the own row that it goes with, -1 if it is another rank's.
 std::vector<std::int32_t> rows_of_nodes(const FluidParticles& fluid, const SurfaceCurves& curves,
                                         std::span<const std::int32_t> rows) {
   std::vector<std::int64_t> ids;
@@ -26,10 +27,10 @@ std::vector<std::int32_t> rows_of_nodes(const FluidParticles& fluid, const Surfa
 }
 
 std::vector<char> wanted_points(const FluidParticles& fluid, const SurfaceCurves& curves,
-                                std::span<const Vector> points, const SurfaceShare& share, double action) {
+                                std::span<const Vector> points, std::span<const std::int32_t> rows,
+                                std::span<const std::int32_t> row_of_node, double action) {
   std::vector<Vector> places;
-  for (const std::int32_t row : share.rows)
-    places.push_back(fluid.detection_position.at(static_cast<std::size_t>(row)));
+  for (const std::int32_t row : rows) places.push_back(fluid.detection_position.at(static_cast<std::size_t>(row)));
   std::vector<double> x, y;
   for (const Vector point : points) {
     x.push_back(point.x);
@@ -41,7 +42,7 @@ std::vector<char> wanted_points(const FluidParticles& fluid, const SurfaceCurves
   for (std::size_t c = 0; c < curves.size(); ++c) {
     const SurfaceCurves::Range curve = curves.curve(c);
     for (std::size_t k = curve.first; k < curve.last; ++k)
-      if (share.node_row[k] >= 0) is_wanted[curve.previous(k)] = is_wanted[k] = is_wanted[curve.next(k)] = 1;
+      if (row_of_node[k] >= 0) is_wanted[curve.previous(k)] = is_wanted[k] = is_wanted[curve.next(k)] = 1;
   }
   return is_wanted;
 }
@@ -84,13 +85,15 @@ SurfaceShare share_of_surface(const Communicator& communicator, const FluidParti
   const std::size_t owned = fluid.owned_count();
   share.rows = particles_near(points, {fluid.detection_position.x.data(), owned},
                               {fluid.detection_position.y.data(), owned}, range.action);
-  share.node_row = rows_of_nodes(fluid, curves, share.rows);
-  if (communicator.size() == 1 || whole_at == communicator.rank()) {
+  if (communicator.size() == 1) {
     share.is_wanted.assign(curves.nodes.size(), 1);
-    if (communicator.size() == 1) return share;
-  } else {
-    share.is_wanted = wanted_points(fluid, curves, points, share, range.action);
+    return share;
   }
+  const std::vector<std::int32_t> row_of_node = rows_of_nodes(fluid, curves, share.rows);
+  if (whole_at == communicator.rank())
+    share.is_wanted.assign(curves.nodes.size(), 1);
+  else
+    share.is_wanted = wanted_points(fluid, curves, points, share.rows, row_of_node, range.action);
 
   // Who owns what is known of the places that particles had when they were distributed.
   Sends sends(share.rows);
@@ -104,7 +107,7 @@ SurfaceShare share_of_surface(const Communicator& communicator, const FluidParti
   for (std::size_t c = 0; c < curves.size(); ++c) {
     const SurfaceCurves::Range curve = curves.curve(c);
     for (std::size_t k = curve.first; k < curve.last; ++k) {
-      const std::int32_t row = share.node_row[k];
+      const std::int32_t row = row_of_node[k];
       if (row < 0) continue;
       const auto at = static_cast<std::size_t>(row);
       const Vector since_detection = fluid.list_position.at(at) - fluid.detection_position.at(at);

@@ -25,10 +25,9 @@ inline constexpr int steps_of_a_force = 3;
 /// A rank works on all points that may act on its particles, and on the neighbours along the curve of its own nodes, so
 /// that nothing has to come back from others. Each works on few points that others work on too.
 struct SurfaceShare {
-  std::vector<std::int32_t> rows;      ///< own rows that may feel the surface
-  std::vector<std::int32_t> node_row;  ///< by node: the own row that it goes with, -1 if it is another rank's
-  std::vector<char> is_wanted;         ///< by node: whether its point is worked on here
-  std::vector<RankRows> sends;         ///< of `rows`, what others need, by ascending rank
+  std::vector<std::int32_t> rows;  ///< own rows that may feel the surface
+  std::vector<char> is_wanted;     ///< by node: whether its point is worked on here
+  std::vector<RankRows> sends;     ///< of `rows`, what others need, by ascending rank
 };
 
 /// Each rank for itself. `points`: by node, as of detection, m. `whole_at`: a rank that works on the whole surface, or

@@ -99,8 +99,7 @@ void SurfaceTensionStep::place_points(const FluidParticles& fluid) {
 
 void SurfaceTensionStep::place_nodes() {
   for (std::size_t k = 0; k < node_place_.size(); ++k) {
-    const auto place = static_cast<std::size_t>(node_place_[k]);
-    node_positions_[k] = {x_[place], y_[place]};
+    node_positions_[k] = positions_[static_cast<std::size_t>(node_place_[k])];
   }
 }
 
@@ -209,7 +208,7 @@ void SurfaceTensionStep::orient_along_surface(FluidParticles& fluid) const {
 
 void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& contact, const Distribution& distribution) {
   if (orients_particles_) orient_along_surface(fluid);
-  const SurfaceCurves curves = connect_arcs(arcs_, arc_centres_, support_);
+  SurfaceCurves curves = connect_arcs(arcs_, arc_centres_, support_);
   std::vector<Vector> centres, points(curves.nodes.size());
   for (const SurfaceCurves::Node& node : curves.nodes) centres.push_back(node.centre);
   surface_points(curves, centres, spacing_, points);
@@ -225,23 +224,20 @@ void SurfaceTensionStep::regather(FluidParticles& fluid, const ContactStep& cont
   band_ = CollectedRows(communicator_, {fluid.id.data(), fluid.id.size()}, std::move(share.rows),
                         std::move(share.sends), tags::surface);
   const std::size_t collected = band_.size();
-  x_.assign(collected + 1, ForceSharing::far_away);
-  y_.assign(collected + 1, ForceSharing::far_away);
+  positions_.assign(collected + 1, ForceSharing::far_away);
   band_.start(std::array<const void*, 2>{fluid.detection_position.x.data(), fluid.detection_position.y.data()});
-  band_.finish(std::array<void*, 2>{x_.data(), y_.data()});
+  band_.finish_pairs(&positions_[0].x);
   inverse_mass_.clear();
   for (const std::int32_t row : band_.own_rows())
     inverse_mass_.push_back(1.0 / fluid.mass[static_cast<std::size_t>(row)]);
-  take_piece(curves, piece_of_curves(curves, share.is_wanted, steps_of_a_force), share.node_row, contact.owner());
+  take_piece(piece_of_curves(std::move(curves), share.is_wanted, steps_of_a_force), contact.owner());
   place_nodes();
   surface_points(curves_, node_positions_, spacing_, points_);
-  sharing_.rebuild(points_, std::span(x_).first(collected), std::span(y_).first(collected), band_.order().by_id(),
-                   action);
+  sharing_.rebuild(points_, std::span(positions_).first(collected), band_.order().by_id(), action);
   if (works_on_adhesion()) adhesion_.rebuild(node_positions_, contact.boundary(), adhesion_reach_);
 }
 
-void SurfaceTensionStep::take_piece(const SurfaceCurves& curves, CurvePiece piece,
-                                    std::span<const std::int32_t> node_row, int contact_owner) {
+void SurfaceTensionStep::take_piece(CurvePiece piece, int contact_owner) {
   curves_ = std::move(piece.curves);
   beyond_ = std::move(piece.beyond);
   const std::size_t nodes = curves_.nodes.size();
@@ -253,15 +249,15 @@ void SurfaceTensionStep::take_piece(const SurfaceCurves& curves, CurvePiece piec
     assert(node_place_.back() >= 0);
   }
   own_nodes_.clear();
+  const std::span<const std::int32_t> own_rows = band_.own_rows();
   for (std::size_t c = 0; c < curves_.size(); ++c) {
     const SurfaceCurves::Range curve = curves_.curve(c);
     if (!curve.carries_force()) continue;
-    const std::size_t first = curves.curve(static_cast<std::size_t>(piece.curve[c])).first;
     for (std::size_t k = curve.first; k < curve.last; ++k)
-      if (const std::int32_t row = node_row[static_cast<std::size_t>(piece.number[k])]; row >= 0)
+      if (const auto place = static_cast<std::size_t>(node_place_[k]); place < own_rows.size())
         own_nodes_.push_back({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(curve.previous(k)),
-                              static_cast<std::uint32_t>(curve.next(k)), static_cast<std::uint32_t>(row),
-                              curves.nodes[first].centre});
+                              static_cast<std::uint32_t>(curve.next(k)), static_cast<std::uint32_t>(own_rows[place]),
+                              piece.first_places[c]});
   }
   energies_.resize(inverse_mass_.size() + own_nodes_.size());
   if (!is_wetting_) return;
@@ -279,7 +275,7 @@ void SurfaceTensionStep::start(const FluidParticles& fluid) {
 }
 
 void SurfaceTensionStep::receive() {
-  band_.finish(std::array<void*, 2>{x_.data(), y_.data()});
+  band_.finish_pairs(&positions_[0].x);
 }
 
 void SurfaceTensionStep::work(ContactStep& contact, double gauge_pressure) {
@@ -314,7 +310,7 @@ void SurfaceTensionStep::add_adhesion(ContactStep& contact) {
 }
 
 void SurfaceTensionStep::share() {
-  shares_ = sharing_.share(points_, is_wetting_ ? all_forces_ : forces_, x_, y_, kernel_);
+  shares_ = sharing_.share(points_, is_wetting_ ? all_forces_ : forces_, positions_, kernel_);
 }
 
 void SurfaceTensionStep::finish(FluidParticles& fluid, double kick) {
@@ -350,15 +346,13 @@ void SurfaceTensionStep::account_for_points(const FluidParticles& fluid, double 
 void SurfaceTensionStep::add_energy_of_displacement(std::span<const double> x, std::span<const double> y,
                                                     double gauge_pressure, const ContactStep& contact,
                                                     SharedEnergy& energy) {
-  displacement_x_.resize(band_.size());
-  displacement_y_.resize(band_.size());
+  displacements_.resize(band_.size() + 1);
   band_.start(std::array<const void*, 2>{x.data(), y.data()});
-  band_.finish(std::array<void*, 2>{displacement_x_.data(), displacement_y_.data()});
+  band_.finish_pairs(&displacements_[0].x);
   displaced_positions_.resize(node_positions_.size());
   displaced_points_.resize(points_.size());
   for (std::size_t k = 0; k < node_place_.size(); ++k) {
-    const auto place = static_cast<std::size_t>(node_place_[k]);
-    displaced_positions_[k] = node_positions_[k] + Vector{displacement_x_[place], displacement_y_[place]};
+    displaced_positions_[k] = node_positions_[k] + displacements_[static_cast<std::size_t>(node_place_[k])];
   }
   surface_points(curves_, displaced_positions_, spacing_, displaced_points_);
   for (const OwnNode& own : own_nodes_) {

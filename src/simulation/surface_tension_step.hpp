@@ -135,8 +135,7 @@ class SurfaceTensionStep {
   void find_arcs(FluidParticles& fluid, Distribution& distribution);
   void find_arc_normals();
   void orient_along_surface(FluidParticles& fluid) const;
-  void take_piece(const SurfaceCurves& curves, CurvePiece piece, std::span<const std::int32_t> node_row,
-                  int contact_owner);
+  void take_piece(CurvePiece piece, int contact_owner);
   void place_nodes();
   void place_points(const FluidParticles& fluid);
   void add_adhesion(ContactStep& contact);
@@ -166,9 +165,9 @@ class SurfaceTensionStep {
   double reconnected_length_ = 0, reconnected_base_ = 0, reconnected_gauge_energy_ = 0;
   SharedEnergy sharing_work_;
 
-  // By place in the band (x_ and y_ end with a place far away).
+  // By place in the band; after the last of them positions have one far away.
   CollectedRows band_;
-  std::vector<double> x_, y_, displacement_x_, displacement_y_;
+  std::vector<Vector> positions_, displacements_;
   std::vector<double> inverse_mass_;  // of the own rows in it
   std::vector<double> energies_;      // that a step adds, of those rows and of the own nodes
   std::span<const Vector> shares_;

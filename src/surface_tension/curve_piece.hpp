@@ -15,13 +15,13 @@ namespace sphdrop {
 struct CurvePiece {
   SurfaceCurves curves;
   std::vector<std::int32_t> number;  ///< of each node, among all
-  std::vector<std::int32_t> curve;   ///< likewise of each curve
+  std::vector<Vector> first_places;  ///< by curve: where the whole one's first particle was, m
   std::vector<std::int32_t> beyond;  ///< nodes that are there for their neighbours' sake
 };
 
 /// is_wanted: by node. `steps`: how far along the curve what is worked out looks. A curve of less than three nodes is
 /// taken whole or not at all, so that a curve of the piece carries a force where the whole one does; with two steps or
 /// more, as soon, it has at least five nodes where the whole one has.
-CurvePiece piece_of_curves(const SurfaceCurves& all, std::span<const char> is_wanted, int steps);
+CurvePiece piece_of_curves(SurfaceCurves all, std::span<const char> is_wanted, int steps);
 
 }  // namespace sphdrop

@@ -8,6 +8,7 @@
 
 #include "particles/pack.hpp"
 #include "sph/cell_grid.hpp"
+#include "surface_tension/node_lanes.hpp"
 
 namespace sphdrop {
 
@@ -24,9 +25,9 @@ constexpr std::int32_t rounded_up(std::int32_t count) {
 
 }  // namespace
 
-void ForceSharing::rebuild(std::span<const Vector> centres, std::span<const double> x, std::span<const double> y,
+void ForceSharing::rebuild(std::span<const Vector> centres, std::span<const Vector> positions,
                            std::span<const std::int32_t> order, double reach) {
-  assert(x.size() == y.size() && order.size() == x.size() && reach > 0.0);
+  assert(order.size() == positions.size() && reach > 0.0);
   const std::size_t nodes = centres.size();
   std::vector<double> node_x(nodes), node_y(nodes);
   for (std::size_t node = 0; node < nodes; ++node) {
@@ -38,7 +39,7 @@ void ForceSharing::rebuild(std::span<const Vector> centres, std::span<const doub
   pairs_.clear();
   candidate_count_.assign(nodes, 0);
   for (const std::int32_t i : order) {
-    const Vector position = {x[static_cast<std::size_t>(i)], y[static_cast<std::size_t>(i)]};
+    const Vector position = positions[static_cast<std::size_t>(i)];
     grid.for_each_near(position, [&](std::int32_t near_node) {
       const auto node = static_cast<std::size_t>(near_node);
       if (squared_length(position - centres[node]) > reach * reach) return;
@@ -46,7 +47,7 @@ void ForceSharing::rebuild(std::span<const Vector> centres, std::span<const doub
       ++candidate_count_[node];
     });
   }
-  shares_.resize(x.size() + 1);
+  shares_.resize(positions.size() + 1);
   force_per_weight_.resize(nodes);
   place_in_slices();
 }
@@ -89,35 +90,29 @@ void ForceSharing::place_in_slices() {
 }
 
 std::span<const Vector> ForceSharing::share(std::span<const Vector> points, std::span<const Vector> forces,
-                                            std::span<const double> x, std::span<const double> y,
-                                            const SmoothingKernel& kernel) {
+                                            std::span<const Vector> positions, const SmoothingKernel& kernel) {
   assert(points.size() == candidate_count_.size() && forces.size() == points.size());
-  assert(x.size() == shares_.size() && y.size() == x.size());
-  assert(x.empty() || (x.back() == far_away && y.back() == far_away));
+  assert(positions.size() == shares_.size() && (positions.empty() || positions.back() == far_away));
   points_without_particles_ = 0;
-  if (!points.empty()) std::visit([&](const auto& chosen) { evaluate_kernel(points, forces, x, y, chosen); }, kernel);
+  if (!points.empty())
+    std::visit([&](const auto& chosen) { evaluate_kernel(points, forces, positions, chosen); }, kernel);
   sum_over_points();
   return std::span<const Vector>(shares_).first(shares_.empty() ? 0 : shares_.size() - 1);
 }
 
 template <class Kernel>
 [[gnu::flatten]] void ForceSharing::evaluate_kernel(std::span<const Vector> points, std::span<const Vector> forces,
-                                                    std::span<const double> x, std::span<const double> y,
-                                                    const Kernel& kernel) {
+                                                    std::span<const Vector> positions, const Kernel& kernel) {
   using std::sqrt;
-  const double* const candidate_x = x.data();
-  const double* const candidate_y = y.data();
   for (std::size_t slice = 0; slice < slice_end_.size(); ++slice) {
     const std::int32_t* const node = node_of_lane_.data() + slice * lanes;
-    const Pack point_x([&](auto lane) { return points[static_cast<std::size_t>(node[lane])].x; });
-    const Pack point_y([&](auto lane) { return points[static_cast<std::size_t>(node[lane])].y; });
+    const Components<Pack> point = collect_lanes(points, node);
     Pack sum = 0.0;
     const auto last = static_cast<std::size_t>(slice_end_[slice]);
     for (auto entry = static_cast<std::size_t>(slice_start_[slice]); entry < last; entry += lanes) {
       const std::int32_t* const candidate = candidates_.data() + entry;
-      const Pack separation_x = point_x - Pack([&](auto lane) { return candidate_x[candidate[lane]]; });
-      const Pack separation_y = point_y - Pack([&](auto lane) { return candidate_y[candidate[lane]]; });
-      const Pack distance = sqrt(separation_x * separation_x + separation_y * separation_y);
+      const Components<Pack> separation = point - collect_lanes(positions, candidate);
+      const Pack distance = sqrt(separation.x * separation.x + separation.y * separation.y);
       const Pack weight = kernel.value(distance);
       store(weight, weights_.data() + entry);
       sum += weight;

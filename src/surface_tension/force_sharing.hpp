@@ -21,18 +21,18 @@ class ForceSharing {
  public:
   /// Finds for every node the particles within `reach` (m) of `centres`, by node: the surface points, with reach = 2h
   /// plus what a point and a particle may move towards each other until the next rebuild; or the nodes' particles, with
-  /// d/2 more. x, y (m): of all particles that may take part; `order`: their indices, each once.
-  void rebuild(std::span<const Vector> centres, std::span<const double> x, std::span<const double> y,
-               std::span<const std::int32_t> order, double reach);
+  /// d/2 more. `positions` (m): of all particles that may take part; `order`: their indices, each once.
+  void rebuild(std::span<const Vector> centres, std::span<const Vector> positions, std::span<const std::int32_t> order,
+               double reach);
 
-  /// Of one more place that x and y hold for share(), m: its square is still finite, its distance from anything beyond
-  /// any kernel's support.
-  static constexpr double far_away = 1e150;
+  /// One more place that positions hold for share(), m: the squares are still finite, its distance from anything is
+  /// beyond any kernel's support.
+  static constexpr Vector far_away{1e150, 1e150};
 
-  /// The force on each particle, m_i a_i, N/m, until the next call. points (m) and forces (N/m): by node; x and y by
+  /// The force on each particle, m_i a_i, N/m, until the next call. points (m) and forces (N/m): by node; positions by
   /// particle, as in rebuild, but for the place far_away at their end.
   std::span<const Vector> share(std::span<const Vector> points, std::span<const Vector> forces,
-                                std::span<const double> x, std::span<const double> y, const SmoothingKernel& kernel);
+                                std::span<const Vector> positions, const SmoothingKernel& kernel);
 
   /// Of the last share(): points with no particle within 2h, whose force is lost.
   std::size_t points_without_particles() const { return points_without_particles_; }
@@ -40,8 +40,8 @@ class ForceSharing {
  private:
   void place_in_slices();
   template <class Kernel>
-  void evaluate_kernel(std::span<const Vector> points, std::span<const Vector> forces, std::span<const double> x,
-                       std::span<const double> y, const Kernel& kernel);
+  void evaluate_kernel(std::span<const Vector> points, std::span<const Vector> forces,
+                       std::span<const Vector> positions, const Kernel& kernel);
   void sum_over_points();
 
   struct Pair {

@@ -1,7 +1,10 @@
 #pragma once
 // Nodes that follow one another on a curve, side by side in the lanes of vectors.
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "particles/pack.hpp"
@@ -42,6 +45,30 @@ inline void store_lanes(const Components<Pack>& lanes, std::span<Vector> vectors
 #else
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(pack_size); ++lane)
     vectors[k + lane] = {lanes.x[lane], lanes.y[lane]};
+#endif
+}
+
+/// Of those that are numbered.
+[[gnu::always_inline]] inline Components<Pack> collect_lanes(std::span<const Vector> vectors,
+                                                             const std::int32_t* numbers) {
+#if defined(__AVX512F__)
+  // Both numbers of a vector at a time: the one port that can shuffle has little to do then.
+  using Two = double __attribute__((vector_size(16)));
+  using Four = double __attribute__((vector_size(32)));
+  using Line = double __attribute__((vector_size(64)));
+  const auto two = [&](int lane) -> Two {
+    Two pair;
+    std::memcpy(&pair, &vectors[static_cast<std::size_t>(numbers[lane])], sizeof pair);
+    return pair;
+  };
+  const auto four = [&](int lane) -> Four { return __builtin_shufflevector(two(lane), two(lane + 1), 0, 1, 2, 3); };
+  const Line first = __builtin_shufflevector(four(0), four(2), 0, 1, 2, 3, 4, 5, 6, 7);
+  const Line second = __builtin_shufflevector(four(4), four(6), 0, 1, 2, 3, 4, 5, 6, 7);
+  return {std::bit_cast<Pack>(Line(__builtin_shufflevector(first, second, 0, 2, 4, 6, 8, 10, 12, 14))),
+          std::bit_cast<Pack>(Line(__builtin_shufflevector(first, second, 1, 3, 5, 7, 9, 11, 13, 15)))};
+#else
+  return {Pack([&](auto lane) { return vectors[static_cast<std::size_t>(numbers[lane])].x; }),
+          Pack([&](auto lane) { return vectors[static_cast<std::size_t>(numbers[lane])].y; })};
 #endif
 }
 

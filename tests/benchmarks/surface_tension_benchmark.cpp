@@ -29,7 +29,7 @@ struct Drop {
   std::vector<std::int64_t> ids;
   std::vector<Vector> positions;
   std::vector<std::int32_t> order;
-  std::vector<double> x, y, masses, acceleration_x, acceleration_y;
+  std::vector<double> x, y;
   std::vector<std::vector<std::int64_t>> ids_nearby;  // within 4h, by particle
   std::vector<std::vector<Vector>> nearby;
   std::vector<Arc> arcs;
@@ -53,12 +53,9 @@ struct Drop {
       ids.push_back(static_cast<std::int64_t>(ids.size()));
       x.push_back(position.x);
       y.push_back(position.y);
-      masses.push_back(1000.0 * spacing * spacing);
     }
     order.resize(x.size());
     std::iota(order.begin(), order.end(), 0);
-    acceleration_x.resize(x.size());
-    acceleration_y.resize(x.size());
     for (const Vector centre : positions) {
       ids_nearby.emplace_back();
       nearby.emplace_back();
@@ -169,7 +166,7 @@ void candidates(benchmark::State& state) {
   Drop drop;
   ForceSharing sharing;
   for (auto _ : state) {
-    sharing.rebuild(drop.points, drop.x, drop.y, drop.order, reach);
+    sharing.rebuild(drop.points, drop.positions, drop.order, reach);
     benchmark::ClobberMemory();
   }
   drop.report(state);
@@ -179,11 +176,11 @@ BENCHMARK(candidates)->Unit(benchmark::kMicrosecond);
 void sharing(benchmark::State& state) {
   Drop drop;
   ForceSharing sharing;
-  sharing.rebuild(drop.points, drop.x, drop.y, drop.order, reach);
+  sharing.rebuild(drop.points, drop.positions, drop.order, reach);
   const CubicSpline kernel(smoothing_length);
-  for (auto* column : {&drop.x, &drop.y}) column->push_back(ForceSharing::far_away);
+  drop.positions.push_back(ForceSharing::far_away);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(sharing.share(drop.points, drop.forces, drop.x, drop.y, kernel));
+    benchmark::DoNotOptimize(sharing.share(drop.points, drop.forces, drop.positions, kernel));
     benchmark::ClobberMemory();
   }
   drop.report(state);

@@ -151,16 +151,16 @@ bool interfaces() {
   ForceSharing sharing;
   std::vector<std::int32_t> order(x.size());
   std::iota(order.begin(), order.end(), 0);
-  sharing.rebuild(points, x, y, order, reach);
+  std::vector<Vector> places = lattice();
+  sharing.rebuild(points, places, order, reach);
+  places.push_back(ForceSharing::far_away);
   ContactSolver solver;
   const std::vector<Segment> segments = segments_of_polylines(std::vector<std::vector<std::int32_t>>{line});
   solver.rebuild(x, y, vertex_x, vertex_y, segments, 1.3 * spacing);
   std::vector<double> force_x(vertex_x.size()), force_y(vertex_x.size());
-  std::vector<double> ended_x = x, ended_y = y;
-  for (auto* ended : {&ended_x, &ended_y}) ended->push_back(ForceSharing::far_away);
   bool is_sound = true;
   for (int k = 0; k < repetitions; ++k) {
-    is_sound = sharing.share(points, forces, ended_x, ended_y, kernel).size() == x.size() && is_sound;
+    is_sound = sharing.share(points, forces, places, kernel).size() == x.size() && is_sound;
     is_sound = sharing.points_without_particles() == 0 && is_sound;
     const ContactSummary contact = solver.apply({x, y, mass, acceleration_x, acceleration_y},
                                                 {vertex_x, vertex_y, force_x, force_y}, {1e12, spacing, 0.5});

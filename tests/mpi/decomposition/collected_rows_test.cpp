@@ -57,6 +57,13 @@ TEST(CollectedRows, AreTheOwnOnesAndWhatOthersSend) {
       EXPECT_EQ(collected[k], factor * static_cast<double>(expected[k]));
       EXPECT_EQ(others[k], -collected[k]);
     }
+    std::vector<double> pairs(2 * rows.size());
+    rows.start(std::array<const void*, 2>{column.data(), other_column.data()});
+    rows.finish_pairs(pairs.data());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      EXPECT_EQ(pairs[2 * k], collected[k]);
+      EXPECT_EQ(pairs[2 * k + 1], others[k]);
+    }
   }
 }
 

@@ -78,14 +78,15 @@ TEST(CurvePiece, LeavesOutWhatIsFarFromAllThatIsWanted) {
   const SurfaceCurves curves = curves_of(positions);
   std::vector<char> is_wanted(curves.nodes.size(), 0);
   const SurfaceCurves::Range hole = curves.curve(1);
-  is_wanted[hole.first] = 1;
+  is_wanted[hole.first + 1] = 1;
   const CurvePiece piece = piece_of_curves(curves, is_wanted, 3);
   ASSERT_EQ(piece.curves.size(), 1U);
-  EXPECT_EQ(piece.curve, (std::vector<std::int32_t>{1}));
+  EXPECT_EQ(piece.first_places, Positions{curves.nodes[hole.first].centre});
   EXPECT_EQ(piece.curves.nodes.size(), 7U);
   EXPECT_EQ(piece.beyond.size(), 6U);
   EXPECT_EQ(piece.number.front(), static_cast<std::int32_t>(hole.first));
   EXPECT_EQ(piece.number.back(), static_cast<std::int32_t>(hole.last) - 1);
+  EXPECT_EQ(piece.curves.nodes[1].particle, curves.nodes[hole.first + 1].particle);
 
   const CurvePiece none = piece_of_curves(curves, std::vector<char>(curves.nodes.size(), 0), 3);
   EXPECT_EQ(none.curves.size(), 0U);
@@ -99,6 +100,8 @@ TEST(CurvePiece, OfAllIsAll) {
   EXPECT_EQ(piece.curves.curve_start, curves.curve_start);
   EXPECT_EQ(piece.curves.nodes.size(), curves.nodes.size());
   EXPECT_TRUE(piece.beyond.empty());
+  EXPECT_EQ(piece.first_places.size(), curves.size());
+  EXPECT_EQ(piece.number.back(), static_cast<std::int32_t>(curves.nodes.size()) - 1);
 }
 
 }  // namespace

@@ -38,19 +38,23 @@ struct Drop {
     acceleration_y.assign(x.size(), 0.0);
   }
 
+  Positions positions() const {
+    Positions result;
+    for (std::size_t i = 0; i < x.size(); ++i) result.push_back({x[i], y[i]});
+    return result;
+  }
   /// With the particles in ascending order, if no other is given.
   void rebuild(ForceSharing& sharing, std::vector<std::int32_t> order = {}) const {
     if (order.empty()) {
       order.resize(x.size());
       std::iota(order.begin(), order.end(), 0);
     }
-    sharing.rebuild(nodes, x, y, order, reach);
+    sharing.rebuild(nodes, positions(), order, reach);
   }
   std::size_t share(ForceSharing& sharing) {
-    std::vector<double> ended_x = x, ended_y = y;
-    for (auto* ended : {&ended_x, &ended_y}) ended->push_back(ForceSharing::far_away);
-    const std::span<const Vector> shares =
-        sharing.share(points, forces, ended_x, ended_y, CubicSpline(smoothing_length));
+    Positions ended = positions();
+    ended.push_back(ForceSharing::far_away);
+    const std::span<const Vector> shares = sharing.share(points, forces, ended, CubicSpline(smoothing_length));
     EXPECT_EQ(shares.size(), x.size());
     for (std::size_t i = 0; i < shares.size(); ++i) {
       acceleration_x[i] += shares[i].x * (1.0 / masses[i]);
@@ -219,11 +223,10 @@ TEST(ForceSharing, GoesByTheReachAtRebuilding) {
     for (const double distance : {(1.0 - 1e-6) * reach, (1.0 + 1e-6) * reach}) {
       const Vector then = points[0] + distance * direction, now = points[0] + spacing * direction;
       ForceSharing sharing;
-      sharing.rebuild(points, std::vector<double>{then.x}, std::vector<double>{then.y}, std::vector<std::int32_t>{0},
-                      reach);
-      const std::vector<double> x{now.x, ForceSharing::far_away}, y{now.y, ForceSharing::far_away};
+      sharing.rebuild(points, Positions{then}, std::vector<std::int32_t>{0}, reach);
+      const Positions ended{now, ForceSharing::far_away};
       const std::span<const Vector> shares =
-          sharing.share(points, std::vector<Vector>{{1.0, 2.0}}, x, y, CubicSpline(smoothing_length));
+          sharing.share(points, Positions{{1.0, 2.0}}, ended, CubicSpline(smoothing_length));
       EXPECT_NEAR(shares[0].y, distance < reach ? 2.0 : 0.0, 1e-15) << k;
     }
   }
