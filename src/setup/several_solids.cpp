@@ -77,6 +77,9 @@ void move_body(InitialSolid& body, Vector shift) {
   if (shift == Vector{}) return;
   for (Vector& position : body.positions) position += shift;
   for (Vector& corner : body.outline) corner += shift;
+  for (std::vector<Vector>& places : body.polyline_places)
+    for (Vector& place : places) place += shift;
+  body.bounds = body.bounds.moved_by(shift);
   body.top += shift.y;
 }
 
