@@ -70,7 +70,7 @@ class Drop {
     const Box wide = box.grown_by(jitter_bound());
     return walk(
         {0, count()}, [&](const auto& line) { return wide.meets(line.box()); },
-        [&](std::int64_t, Vector position, double) { return is_so(position); });
+        [&](std::int64_t, Vector position, double) { return !box.contains(position) || is_so(position); });
   }
 
   /// The smallest that holds all particles.

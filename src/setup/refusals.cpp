@@ -20,7 +20,7 @@ namespace sphdrop {
 namespace {
 
 // Particles looked at together: many enough that what is done once for them does not count.
-constexpr std::size_t batch_size = 16384;
+constexpr std::size_t batch_size = 4096;
 
 struct Coordinates {
   std::vector<double> x, y;

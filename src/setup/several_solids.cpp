@@ -146,6 +146,7 @@ double height_above_solids(const std::vector<InitialSolid>& solids, const Drop& 
   if (solids.size() == 1 && solids.front().outline.empty()) return solids.front().top + gap + radius - lowest;
   const double clearance = gap + radius;
   std::vector<Obstruction> obstructions;
+  obstructions.reserve(solids.size());
   for (const InitialSolid& one : solids) obstructions.emplace_back(one, clearance);
   double top = -infinity;
   for (const Obstruction& one : obstructions) top = std::max(top, one.highest_between(left, right));
