@@ -39,26 +39,53 @@ struct BeamLattice {
   int lowest_row(int column) const { return is_clamped(column) ? -layers : 0; }
   int highest_row(int column) const { return is_clamped(column) ? rows + layers - 1 : rows - 1; }
 
+  std::int64_t total() const { return first_index(columns()); }
+  std::int64_t first_index(int column) const {
+    const std::int64_t free_columns_before = std::clamp(column - left_clamp_columns, 0, free_columns);
+    return static_cast<std::int64_t>(column) * (rows + 2 * layers) - free_columns_before * 2 * layers;
+  }
   std::int32_t index(int column, int row) const {
-    const int free_columns_before = std::clamp(column - left_clamp_columns, 0, free_columns);
-    return column * (rows + 2 * layers) - free_columns_before * 2 * layers + row - lowest_row(column);
+    return static_cast<std::int32_t>(first_index(column)) + row - lowest_row(column);
   }
   Vector position(int column, int row) const {
     return {(column - left_clamp_columns + 0.5) * spacing, (row + 0.5) * spacing};
   }
+  Vector position_of(std::int64_t index) const {
+    int column = 0;
+    for (int last = columns() - 1; column < last;) {
+      const int middle = column + (last - column + 1) / 2;
+      if (first_index(middle) <= index)
+        column = middle;
+      else
+        last = middle - 1;
+    }
+    return position(column, static_cast<int>(index - first_index(column)) + lowest_row(column));
+  }
 };
 
-void append_particles(const BeamLattice& lattice, double mass, Clamp clamp, InitialSolid& solid) {
+void append_particles(const BeamLattice& lattice, double mass, Clamp clamp, IdRange wanted, InitialSolid& solid) {
+  const auto count = static_cast<std::size_t>(wanted.count());
+  solid.positions.reserve(count);
+  solid.is_fixed.reserve(count);
   for (int column = 0; column < lattice.columns(); ++column) {
-    for (int row = lattice.lowest_row(column); row <= lattice.highest_row(column); ++row) {
+    const std::int64_t first = lattice.first_index(column);
+    const IdRange mine = IdRange{first, lattice.first_index(column + 1)}.common_with(wanted);
+    for (std::int64_t k = mine.first; k < mine.last; ++k) {
+      const int row = static_cast<int>(k - first) + lattice.lowest_row(column);
       const bool is_fixed = row < 0 || row >= lattice.rows || (clamp == Clamp::ideal && lattice.is_clamped(column));
       solid.positions.push_back(lattice.position(column, row));
-      solid.velocities.push_back({});
-      solid.masses.push_back(mass);
       solid.is_fixed.push_back(is_fixed ? 1 : 0);
-      if (!is_fixed) ++solid.mobile_count;
     }
   }
+  solid.velocities.resize(count);
+  solid.masses.assign(count, mass);
+  solid.mobile_count = static_cast<std::size_t>(lattice.rows) *
+                       static_cast<std::size_t>(clamp == Clamp::ideal ? lattice.free_columns : lattice.columns());
+  solid.before = wanted.first;
+  solid.after = lattice.total() - wanted.last;
+  for (const int column : {0, lattice.left_clamp_columns, lattice.columns() - 1})
+    for (const int row : {lattice.lowest_row(column), lattice.highest_row(column)})
+      solid.bounds.include(lattice.position(column, row));
 }
 
 /// The upper boundary from left to right: the highest row of each column, and down and up the strips' faces between.
@@ -111,10 +138,25 @@ std::vector<std::int32_t> columns_of_rows(const BeamLattice& lattice, int first_
 
 void set_bending_velocity(const BeamLattice& lattice, double tip_velocity, InitialSolid& solid) {
   for (int column = lattice.left_clamp_columns; column <= lattice.last_free_column(); ++column) {
+    const IdRange mine =
+        IdRange{lattice.index(column, 0), lattice.index(column, 0) + lattice.rows}.common_with(solid.indices());
+    if (mine.count() == 0) continue;
     const double fraction = (column - lattice.left_clamp_columns + 0.5) / lattice.free_columns;
     const double velocity = tip_velocity * first_cantilever_mode(fraction);
-    for (int row = 0; row < lattice.rows; ++row) solid.velocities[lattice.index(column, row)] = {0.0, velocity};
+    for (std::int64_t k = mine.first; k < mine.last; ++k)
+      solid.velocities[static_cast<std::size_t>(k - solid.before)] = {0.0, velocity};
   }
+}
+
+/// Of the polylines' particles.
+std::vector<std::vector<Vector>> places_of(const std::vector<std::vector<std::int32_t>>& polylines,
+                                           const BeamLattice& lattice) {
+  std::vector<std::vector<Vector>> places;
+  for (const auto& polyline : polylines) {
+    std::vector<Vector>& along = places.emplace_back();
+    for (const std::int32_t k : polyline) along.push_back(lattice.position_of(k));
+  }
+  return places;
 }
 
 }  // namespace
@@ -130,7 +172,7 @@ double first_cantilever_mode(double fraction) {
   return shape(b * fraction, s) / shape(b, s);
 }
 
-InitialSolid build_beam(const Case::Solid& solid, double spacing) {
+InitialSolid build_beam(const Case::Solid& solid, double spacing, Share share) {
   const bool is_cantilever = solid.kind == SolidKind::cantilever;
   if (!is_cantilever && solid.initial_tip_velocity != 0.0)
     throw SetupError("an initial tip velocity needs a cantilever: set it to 0 for a beam that is fixed at both ends");
@@ -153,7 +195,7 @@ InitialSolid build_beam(const Case::Solid& solid, double spacing) {
                     solid.thickness, solid.thickness / 4));
 
   InitialSolid initial;
-  append_particles(lattice, solid.density * spacing * spacing, solid.clamp, initial);
+  append_particles(lattice, solid.density * spacing * spacing, solid.clamp, share.of(lattice.total()), initial);
   initial.top = lattice.rows * spacing;
   initial.middle_probe = columns_of_rows(lattice, lattice.left_clamp_columns + (lattice.free_columns - 1) / 2,
                                          lattice.left_clamp_columns + lattice.free_columns / 2);
@@ -165,6 +207,7 @@ InitialSolid build_beam(const Case::Solid& solid, double spacing) {
     initial.contact_polylines = {upper_boundary(lattice), lower_boundary(lattice)};
     initial.deflection_probe = initial.middle_probe;
   }
+  initial.polyline_places = places_of(initial.contact_polylines, lattice);
   return initial;
 }
 

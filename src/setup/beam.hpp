@@ -17,8 +17,8 @@ namespace sphdrop {
 /// There the middle probe of both is: the column or the two columns about x = L/2.
 ///
 /// Throws SetupError where L or H is not a whole number of spacings, H has fewer than two rows or the clamp is empty,
-/// and for an initial tip velocity of any solid but the cantilever.
-InitialSolid build_beam(const Case::Solid& solid, double spacing);
+/// and for an initial tip velocity of any solid but the cantilever. Particles of other shares are nowhere stored.
+InitialSolid build_beam(const Case::Solid& solid, double spacing, Share share = {});
 
 /// One row of round(W/d) fixed particles along y = -d/2, centred on x = 0, so that the surface is y = 0; boundary from
 /// left to right, no probe. W is solid.length.

@@ -64,12 +64,13 @@ class Drop {
           return true;
         });
   }
-  /// Whether is_so(position) holds for all of them; asks no more than it must.
+  /// Whether is_so(position) holds for all in `box`, where it holds for all others; asks no more than it must.
   template <class F>
-  bool all_of(F&& is_so) const {
+  bool all_about(const Box& box, F&& is_so) const {
+    const Box wide = box.grown_by(jitter_bound());
     return walk(
-        {0, count()}, [](const auto&) { return true; },
-        [&](std::int64_t, Vector position, double) { return is_so(position); });
+        {0, count()}, [&](const auto& line) { return wide.meets(line.box()); },
+        [&](std::int64_t, Vector position, double) { return !box.contains(position) || is_so(position); });
   }
 
   /// The smallest that holds all particles.

@@ -46,12 +46,21 @@ struct Hold {
   bool in_x = false, in_y = false;
 };
 
-/// Shapes: [particles]. A beam's particles stand in lattice order: column by column in x, from bottom to top in a
-/// column.
+/// The solid's particles, or those of a share of them. Shapes: [particles of the share]. A beam's particles stand in
+/// lattice order: column by column in x, from bottom to top in a column. All indices count the whole solid's.
 struct InitialSolid {
   std::vector<Vector> positions, velocities;
   std::vector<double> masses;
   std::vector<char> is_fixed;  ///< 1: a particle of a clamp or wall, which never moves
+
+  // Of the particles that are left to other shares; where there are none, these may be left as they are.
+  std::int64_t before = 0, after = 0;                ///< how many come before and after these
+  Box bounds;                                        ///< holds them all, and these
+  std::vector<std::vector<Vector>> polyline_places;  ///< of the contact polylines' vertices, m
+
+  std::int64_t total() const { return before + static_cast<std::int64_t>(positions.size()) + after; }
+  IdRange indices() const { return {before, before + static_cast<std::int64_t>(positions.size())}; }
+
   /// The boundary as indices of contact_vertices, the solid on the right when walking along.
   std::vector<std::vector<std::int32_t>> contact_polylines;
   std::vector<ContactVertex> contact_vertices;  ///< empty: vertex k is particle k
@@ -71,8 +80,8 @@ struct InitialSolid {
   std::vector<std::int32_t> deflection_probe;
   /// Those of mid-span, ascending; the same as deflection_probe for a beam fixed at both ends.
   std::vector<std::int32_t> middle_probe;
-  std::size_t mobile_count = 0;
-  double top = 0;  ///< y of the surface a drop falls on, m
+  std::size_t mobile_count = 0;  ///< of all
+  double top = 0;                ///< y of the surface a drop falls on, m
 };
 
 }  // namespace sphdrop

@@ -15,12 +15,12 @@
 namespace sphdrop {
 namespace {
 
-InitialSolid build_solid(const Case::Solid& solid, double spacing) {
+InitialSolid build_solid(const Case::Solid& solid, double spacing, Share share) {
   InitialSolid body;
   switch (solid.kind) {
     case SolidKind::cantilever:
     case SolidKind::fixed_fixed_beam:
-      body = build_beam(solid, spacing);
+      body = build_beam(solid, spacing, share);
       break;
     case SolidKind::rigid_wall:
       body = build_rigid_wall(solid, spacing);
@@ -42,10 +42,23 @@ InitialSolid build_solid(const Case::Solid& solid, double spacing) {
   return body;
 }
 
-std::vector<InitialSolid> build_solids(const Case& input) {
+bool is_of_cells(const Case::Solid& solid) {
+  return solid.is_elastic() && solid.formulation == SolidFormulation::cells;
+}
+
+/// Of a straight beam of particles, which is alone and whose supports and probes are those of its kind. Cells are kept
+/// as a whole by every process, and the others are small or found by looking at all particles.
+bool can_be_shared(const Case& input) {
+  const Case::Solid& solid = input.solid;
+  return input.solid_count() == 1 && solid.is_straight_beam() && !is_of_cells(solid) && solid.pinned.empty() &&
+         solid.held_in_x.empty() && solid.held_in_y.empty() && solid.probe.empty();
+}
+
+std::vector<InitialSolid> build_solids(const Case& input, Share share) {
+  if (!can_be_shared(input)) share = {};
   std::vector<InitialSolid> solids;
   for (std::size_t k = 0; k < input.solid_count(); ++k)
-    solids.push_back(build_solid(input.solid_at(k), input.resolution.spacing));
+    solids.push_back(build_solid(input.solid_at(k), input.resolution.spacing, share));
   return solids;
 }
 
@@ -121,13 +134,11 @@ InitialFluid fluid_of(const Case& input, const std::vector<PlacedDrop>& drops, S
 InitialState build_initial_state(const Case& input, Share share) {
   refuse_too_many_particles(input);
   InitialState state;
-  const std::vector<InitialSolid> solids = build_solids(input);
+  const std::vector<InitialSolid> solids = build_solids(input, share);
   state.solid = joined_solids(solids);
-  const bool is_of_cells = input.any_solid(
-      [](const Case::Solid& one) { return one.is_elastic() && one.formulation == SolidFormulation::cells; });
   // Kernel sums make one body of what is nearer than their support.
-  refuse_near_solids(state.solid,
-                     (is_of_cells ? 1.0 : 2.0 * input.resolution.smoothing_ratio) * input.resolution.spacing);
+  refuse_near_solids(state.solid, (input.any_solid(is_of_cells) ? 1.0 : 2.0 * input.resolution.smoothing_ratio) *
+                                      input.resolution.spacing);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   state.drop_centre = {nan, nan};
   std::vector<PlacedDrop> drops;

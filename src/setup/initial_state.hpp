@@ -25,8 +25,8 @@ struct InitialState {
 /// the solid than the contact distance (beyond rounding, 1e-6 d), which Eq 24 would shoot away, for more than 1e8
 /// particles, and for what build_beam() refuses; the same whatever the share.
 ///
-/// Of the drop's particles those of `share` are kept and the others never stored, except that a drop from a file is
-/// read whole; the solid is whole.
+/// Of the particles those of `share` are kept and the others never stored, except that a drop from a file is read
+/// whole, and that a solid is whole unless it is one straight beam of particles, without supports or probes of its own.
 InitialState build_initial_state(const Case& input, Share share = {});
 
 }  // namespace sphdrop

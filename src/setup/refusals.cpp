@@ -20,7 +20,7 @@ namespace sphdrop {
 namespace {
 
 // Particles looked at together: many enough that what is done once for them does not count.
-constexpr std::size_t batch_size = 16384;
+constexpr std::size_t batch_size = 4096;
 
 struct Coordinates {
   std::vector<double> x, y;
@@ -84,26 +84,46 @@ class NearDrops {
   Box box_;
 };
 
-/// The places of the contact surface's vertices.
-Coordinates contact_places(const InitialSolid& solid) {
+/// The contact surface with no vertices but those that its polylines use, in their old order, so that what is decided
+/// by the lowest number is decided alike.
+struct ContactLines {
   Coordinates places;
-  if (solid.contact_vertices.empty())
-    for (const Vector& position : solid.positions) places.add(position);
-  for (const ContactVertex& vertex : solid.contact_vertices) {
+  std::vector<std::vector<std::int32_t>> polylines;
+
+  explicit ContactLines(const InitialSolid& solid) : polylines(solid.contact_polylines) {
+    std::vector<std::int32_t> used;
+    for (const auto& polyline : polylines) used.insert(used.end(), polyline.begin(), polyline.end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    places.x.resize(used.size());
+    places.y.resize(used.size());
+    for (std::size_t line = 0; line < polylines.size(); ++line)
+      for (std::size_t k = 0; k < polylines[line].size(); ++k) {
+        std::int32_t& vertex = polylines[line][k];
+        const Vector place = solid.polyline_places.empty() ? place_of(vertex, solid) : solid.polyline_places[line][k];
+        vertex = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
+        places.x[static_cast<std::size_t>(vertex)] = place.x;
+        places.y[static_cast<std::size_t>(vertex)] = place.y;
+      }
+  }
+
+ private:
+  static Vector place_of(std::int32_t index, const InitialSolid& solid) {
+    if (solid.contact_vertices.empty()) return solid.positions[static_cast<std::size_t>(index)];
+    const ContactVertex& vertex = solid.contact_vertices[static_cast<std::size_t>(index)];
     Vector place;
     for (std::size_t k = 0; k < static_cast<std::size_t>(vertex.count); ++k)
       place += vertex.weight[k] * solid.positions[static_cast<std::size_t>(vertex.particle[k])];
-    places.add(place);
+    return place;
   }
-  return places;
-}
+};
 
 /// Finds the particle that is deepest in the solid, of several the first.
 class DeepestOverlap {
  public:
-  DeepestOverlap(const InitialSolid& solid, double contact_distance)
-      : solid_(contact_places(solid)),
-        segments_(segments_of_polylines(solid.contact_polylines)),
+  DeepestOverlap(const ContactLines& lines, double contact_distance)
+      : solid_(lines.places),
+        segments_(segments_of_polylines(lines.polylines)),
         contact_distance_(contact_distance),
         force_x_(solid_.size()),
         force_y_(solid_.size()) {
@@ -220,7 +240,7 @@ void refuse_overlap(const Case& input, const std::vector<PlacedDrop>& drops, con
   const double d = input.resolution.spacing;
   const double contact_distance = input.contact.distance_ratio * d;
   if (drops.empty() || solid.contact_polylines.empty() || !(contact_distance > 0.0)) return;
-  DeepestOverlap deepest(solid, contact_distance);
+  DeepestOverlap deepest(ContactLines(solid), contact_distance);
   for (const PlacedDrop& drop : drops)
     drop.for_each_in(deepest.within_reach(),
                      [&](std::int64_t, Vector place, double mass) { deepest.add(place, mass); });

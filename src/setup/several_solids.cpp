@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "setup/box.hpp"
 #include "setup/polygon_geometry.hpp"
 #include "setup/setup_error.hpp"
 #include "sph/cell_grid.hpp"
@@ -14,19 +15,49 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Minus infinity where the body does not reach there.
-double highest_between(const InitialSolid& body, double left, double right) {
-  double highest = -infinity;
-  if (!body.outline.empty()) {
+/// How low a solid lets particles come that stay `clearance` (m) off it.
+class Obstruction {
+ public:
+  Obstruction(const InitialSolid& solid, double clearance) : solid_(solid), clearance_(clearance) {
+    for (const Vector& corner : solid.outline) box_.include(corner);
+    if (solid.outline.empty()) {
+      for (const Vector& p : solid.positions) columns_.push_back(p.x);
+      std::sort(columns_.begin(), columns_.end());
+      columns_.erase(std::unique(columns_.begin(), columns_.end()), columns_.end());
+      if (!columns_.empty()) box_ = {{columns_.front(), -infinity}, {columns_.back(), solid.top}};
+    }
+    box_ = box_.grown_by(clearance * (1.0 + 1e-6));
+  }
+
+  /// Particles elsewhere are free.
+  const Box& box() const { return box_; }
+
+  /// Minus infinity where the solid does not reach there.
+  double highest_between(double left, double right) const {
+    if (solid_.outline.empty()) {
+      const auto column = std::lower_bound(columns_.begin(), columns_.end(), left);
+      return column != columns_.end() && *column <= right ? solid_.top : -infinity;
+    }
+    double highest = -infinity;
     std::vector<Vector> part;
-    clip_in_x(body.outline, left, right, part);
+    clip_in_x(solid_.outline, left, right, part);
     for (const Vector& p : part) highest = std::max(highest, p.y);
     return highest;
   }
-  for (const Vector& p : body.positions)
-    if (p.x >= left && p.x <= right) highest = body.top;
-  return highest;
-}
+
+  bool is_free(Vector place) const {
+    if (solid_.outline.empty())
+      return place.y - clearance_ >= solid_.top ||
+             highest_between(place.x - clearance_, place.x + clearance_) < solid_.top;
+    return !contains(solid_.outline, place) && distance_to_border(solid_.outline, place) >= clearance_;
+  }
+
+ private:
+  const InitialSolid& solid_;
+  double clearance_;
+  std::vector<double> columns_;  // x of a beam's or wall's particles, ascending
+  Box box_;
+};
 
 template <class T>
 void append(const std::vector<T>& from, std::vector<T>& to) {
@@ -46,6 +77,9 @@ void move_body(InitialSolid& body, Vector shift) {
   if (shift == Vector{}) return;
   for (Vector& position : body.positions) position += shift;
   for (Vector& corner : body.outline) corner += shift;
+  for (std::vector<Vector>& places : body.polyline_places)
+    for (Vector& place : places) place += shift;
+  body.bounds = body.bounds.moved_by(shift);
   body.top += shift.y;
 }
 
@@ -111,22 +145,20 @@ double height_above_solids(const std::vector<InitialSolid>& solids, const Drop& 
   const double lowest = box.low.y, left = centre_x + box.low.x, right = centre_x + box.high.x;
   if (solids.size() == 1 && solids.front().outline.empty()) return solids.front().top + gap + radius - lowest;
   const double clearance = gap + radius;
+  std::vector<Obstruction> obstructions;
+  obstructions.reserve(solids.size());
+  for (const InitialSolid& one : solids) obstructions.emplace_back(one, clearance);
   double top = -infinity;
-  for (const InitialSolid& one : solids) top = std::max(top, highest_between(one, left, right));
+  for (const Obstruction& one : obstructions) top = std::max(top, one.highest_between(left, right));
   if (!(top > -infinity))
     throw SetupError(fmt::format(
         "there is no solid below the drop, between x = {:.6g} m and {:.6g} m: move it (drop.centre_x), or give "
         "drop.placement = \"centre\" and drop.centre_y",
         left, right));
   const auto is_free = [&](double y) {
-    return drop.all_of([&](Vector p) {
-      const Vector place{centre_x + p.x, y + p.y};
-      return std::all_of(solids.begin(), solids.end(), [&](const InitialSolid& one) {
-        if (one.outline.empty())
-          return place.y - clearance >= one.top ||
-                 highest_between(one, place.x - clearance, place.x + clearance) < one.top;
-        return !contains(one.outline, place) && distance_to_border(one.outline, place) >= clearance;
-      });
+    return std::all_of(obstructions.begin(), obstructions.end(), [&](const Obstruction& one) {
+      const Box about_centre = one.box().moved_by({-centre_x, -y});
+      return drop.all_about(about_centre, [&](Vector p) { return one.is_free({centre_x + p.x, y + p.y}); });
     });
   };
   // On a slope the highest place below a drop is not the one it meets.

@@ -12,7 +12,7 @@ namespace sphdrop {
 /// Moves the body by `shift`, m.
 void move_body(InitialSolid& body, Vector shift);
 
-/// All of them as one, in their order, with InitialSolid::bodies. One alone stays as it is.
+/// All of them as one, in their order, with InitialSolid::bodies; none of them a share. One alone stays as it is.
 InitialSolid joined_solids(const std::vector<InitialSolid>& solids);
 
 /// Throws SetupError where particles of two bodies are nearer than `distance`, m.

@@ -100,7 +100,7 @@ Simulation::Simulation(const Communicator& communicator, const Case& input, cons
 
 void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSolid& solid) {
   fluid_total_ = fluid.total;
-  solid_total_ = static_cast<std::int64_t>(solid.positions.size());
+  solid_total_ = solid.total();
   // Any share will do: the first redistribution sends every particle home.
   const Share share{communicator_.rank(), communicator_.size()};
   const auto [fluid_first, fluid_last] = share.of(fluid_total_);
@@ -117,12 +117,13 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
     fluid_.staggered_density[row] = case_.drop.is_rigid() ? case_.drop.density : case_.fluid.density;
   }
   const auto [solid_first, solid_last] = share.of(solid_total_);
+  assert(solid.indices().contains(share.of(solid_total_)));
   solid_.resize(static_cast<std::size_t>(solid_last - solid_first));
   if (solid_last > solid_first) solid_.owned = {{0, static_cast<std::int32_t>(solid_last - solid_first)}};
   solids_ = solid_bodies(solid, fluid_total_);
   std::size_t which = 0;
   for (std::int64_t k = solid_first; k < solid_last; ++k) {
-    const auto row = static_cast<std::size_t>(k - solid_first), source = static_cast<std::size_t>(k);
+    const auto row = static_cast<std::size_t>(k - solid_first), source = static_cast<std::size_t>(k - solid.before);
     solid_.id[row] = fluid_total_ + k;
     solid_.mass[row] = solid.masses[source];
     solid_.is_fixed[row] = solid.is_fixed[source] ? 1.0 : 0.0;
@@ -143,6 +144,7 @@ void Simulation::take_initial_state(const InitialFluid& fluid, const InitialSoli
   for (const std::int32_t index : solid.middle_probe) middle_probe_.push_back(fluid_total_ + index);
 
   Box box = fluid.bounds;
+  box.include(solid.bounds);
   for (const Vector& p : solid.positions) box.include(p);
   box = box.grown_by(case_.safety.domain_margin);
   box_low_ = box.low;

@@ -42,7 +42,7 @@ struct SafetyError : std::runtime_error {
 /// collective. Between the two the state at time() may be looked at.
 class Simulation {
  public:
-  /// `initial_fluid` is the whole drop or has at least this rank's share (rank, size) of its ids; the solid is whole.
+  /// Drop and solid are whole or have at least this rank's share (rank, size) of their particles.
   Simulation(const Communicator& communicator, const Case& input, const InitialFluid& initial_fluid,
              const InitialSolid& initial_solid);
 

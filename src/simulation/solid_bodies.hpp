@@ -23,7 +23,7 @@ inline std::vector<SolidIds> solid_bodies(const InitialSolid& initial, std::int6
   std::vector<SolidIds> bodies;
   for (const InitialSolid::Body& body : initial.bodies)
     bodies.push_back({bodies.size(), first_id + body.begin, first_id + body.end});
-  if (bodies.empty()) bodies.push_back({0, first_id, first_id + static_cast<std::int64_t>(initial.positions.size())});
+  if (bodies.empty()) bodies.push_back({0, first_id, first_id + initial.total()});
   return bodies;
 }
 

@@ -73,5 +73,22 @@ INSTANTIATE_TEST_SUITE_P(OfADrop, SetUpMemory,
                                          "[drop]\ndiameter = 0.089\n[solid]\nkind = \"cantilever\"\nlength = 16e-3\n",
                                          "[[drop]]\ndiameter = 0.07\n[[drop]]\ndiameter = 0.05\ncentre_x = 0.0602\n"));
 
+// Likewise of a beam of five million, whose boundary every process has: 24 bytes each of 41 000 particles, some of them
+// several times.
+TEST(SetUpMemoryOfABeam, FollowsTheShare) {
+  const Case input = parse_case_text(
+                         "[resolution]\nspacing = 2.5e-5\n[time]\nend = 1e-3\n[drop]\nshape = \"none\"\n[solid]\n"
+                         "kind = \"cantilever\"\nlength = 0.5\nthickness = 6.25e-3\n",
+                         "memory.cfg")
+                         .values;
+  const std::size_t before = allocated;
+  const InitialState state = build_initial_state(input, {500, 1000});
+  const auto taken = static_cast<double>(allocated - before);
+  const auto total = static_cast<double>(state.solid.total());
+  ASSERT_GT(total, 5e6);
+  EXPECT_LE(std::abs(static_cast<double>(state.solid.positions.size()) - total / 1000), 1);
+  EXPECT_LT(taken, 0.04 * 49 * total) << taken;
+}
+
 }  // namespace
 }  // namespace sphdrop

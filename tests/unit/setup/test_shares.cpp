@@ -1,4 +1,4 @@
-// Each process sets up its own share of the drop: together they are the drop, and none knows more than its own.
+// Each process sets up its own share of drop and beam: together they are the whole, and none knows more than its own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,7 +105,7 @@ TEST_P(Shares, TogetherAreTheDropBitForBit) {
       EXPECT_EQ(part.fluid.velocities.size(), part.fluid.positions.size());
       EXPECT_EQ(part.fluid.masses.size(), part.fluid.positions.size());
       expect_same_of_all(part.fluid, whole.fluid);
-      EXPECT_EQ(hash_of(part.solid.positions), hash_of(whole.solid.positions));
+      EXPECT_EQ(part.solid.total(), whole.solid.total());
       append(part.fluid, joined);
     }
     EXPECT_EQ(hash_of(joined.positions), GetParam().positions) << count;
@@ -128,6 +128,78 @@ TEST_P(Shares, KnowWhatBelongsToAllParticles) {
 
 INSTANTIATE_TEST_SUITE_P(OfADrop, Shares, testing::ValuesIn(settings),
                          [](const auto& setting) { return std::string(setting.param.name); });
+
+const std::string fall = "[drop]\ndiameter = 1e-3\n";
+
+class SharesOfABeam : public testing::TestWithParam<const char*> {};
+
+TEST_P(SharesOfABeam, TogetherAreTheBeamBitForBit) {
+  const Case input = parse(fall + GetParam());
+  const InitialSolid whole = build_initial_state(input).solid;
+  ASSERT_EQ(whole.before + whole.after, 0);
+  Box bounds;
+  for (const Vector& p : whole.positions) bounds.include(p);
+  for (std::int64_t count = 1; count <= 5; ++count) {
+    InitialSolid joined;
+    for (std::int64_t index = 0; index < count; ++index) {
+      const InitialSolid part = build_initial_state(input, {index, count}).solid;
+      EXPECT_EQ(part.before, static_cast<std::int64_t>(joined.positions.size()));
+      EXPECT_EQ(part.total(), whole.total());
+      EXPECT_LE(std::abs(part.indices().count() - whole.total() / count), 1);
+      EXPECT_EQ(part.bounds.low, bounds.low);
+      EXPECT_EQ(part.bounds.high, bounds.high);
+      EXPECT_EQ(part.mobile_count, whole.mobile_count);
+      EXPECT_EQ(part.deflection_probe, whole.deflection_probe);
+      EXPECT_EQ(part.middle_probe, whole.middle_probe);
+      EXPECT_EQ(part.contact_polylines, whole.contact_polylines);
+      EXPECT_EQ(part.polyline_places, whole.polyline_places);
+      joined.positions.insert(joined.positions.end(), part.positions.begin(), part.positions.end());
+      joined.velocities.insert(joined.velocities.end(), part.velocities.begin(), part.velocities.end());
+      joined.masses.insert(joined.masses.end(), part.masses.begin(), part.masses.end());
+      joined.is_fixed.insert(joined.is_fixed.end(), part.is_fixed.begin(), part.is_fixed.end());
+    }
+    EXPECT_EQ(hash_of(joined.positions), hash_of(whole.positions));
+    EXPECT_EQ(hash_of(joined.velocities), hash_of(whole.velocities));
+    EXPECT_EQ(hash_of(joined.masses), hash_of(whole.masses));
+    EXPECT_EQ(joined.is_fixed, whole.is_fixed);
+  }
+}
+
+TEST_P(SharesOfABeam, KnowWhereItsBoundaryRuns) {
+  const Case input = parse(fall + GetParam());
+  const InitialSolid whole = build_initial_state(input).solid, part = build_initial_state(input, {1, 3}).solid;
+  ASSERT_EQ(part.polyline_places.size(), whole.contact_polylines.size());
+  for (std::size_t line = 0; line < whole.contact_polylines.size(); ++line) {
+    std::vector<Vector> expected;
+    for (const std::int32_t k : whole.contact_polylines[line])
+      expected.push_back(whole.positions[static_cast<std::size_t>(k)]);
+    EXPECT_EQ(part.polyline_places[line], expected);
+  }
+  EXPECT_EQ(static_cast<std::size_t>(std::count(whole.is_fixed.begin(), whole.is_fixed.end(), 0)), part.mobile_count);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfEveryKind, SharesOfABeam,
+    testing::Values("[solid]\nkind = \"cantilever\"\nlength = 4e-3\ninitial_tip_velocity = 0.1\n",
+                    "[solid]\nkind = \"cantilever\"\nlength = 4e-3\nclamp = \"ideal\"\n",
+                    "[solid]\nkind = \"fixed_fixed_beam\"\nlength = 4e-3\norigin = [1e-3, 2e-3]\n",
+                    "[solid]\nkind = \"fixed_fixed_beam\"\nlength = 4e-3\nformulation = \"total_lagrangian\"\n"));
+
+// Whose supports are found among all particles, or whose cells every process keeps, is whole on each.
+TEST(SolidThatIsNotShared, IsWhole) {
+  for (const char* solid : {"[solid]\nkind = \"cantilever\"\nlength = 4e-3\nformulation = \"cells\"\n",
+                            "[solid]\nkind = \"cantilever\"\nlength = 4e-3\npinned = [[2e-3, 0]]\n",
+                            "[solid]\nkind = \"cantilever\"\nlength = 4e-3\nprobe = [[2e-3, 0]]\n",
+                            "[[solid]]\nkind = \"cantilever\"\nlength = 4e-3\n"
+                            "[[solid]]\nkind = \"cantilever\"\nlength = 4e-3\norigin = [0, -3e-3]\n"}) {
+    const Case input = parse(fall + solid);
+    const InitialSolid whole = build_initial_state(input).solid, part = build_initial_state(input, {1, 3}).solid;
+    EXPECT_EQ(hash_of(part.positions), hash_of(whole.positions));
+    EXPECT_EQ(part.before + part.after, 0);
+    EXPECT_EQ(part.deflection_probe, whole.deflection_probe);
+    EXPECT_EQ(part.holds.size(), whole.holds.size());
+  }
+}
 
 TEST(ShareOfNothing, IsNothing) {
   const Case input = parse("[drop]\nshape = \"none\"\n[solid]\nkind = \"cantilever\"\nlength = 8e-3\n");
@@ -168,6 +240,10 @@ TEST(Refusal, IsThatOfTheWholeDrop) {
       {"[[drop]]\ndiameter = 8e-3\narrangement = \"rings\"\n"
        "[[drop]]\ndiameter = 8e-3\ncentre_x = 5e-3\narrangement = \"lattice\"\njitter = 0.1\nseed = 5\n",
        "the drops 1 and 2 overlap at the start, at x = 0.00100052 m, y = -0.000155305 m;"},
+      {"[drop]\ndiameter = 1e-3\ncentre_x = -1e-4\n[solid]\nkind = \"cantilever\"\nlength = 4e-3\n",
+       "the particle at x = -8.99258e-05 m, y = 0.000265 m is nearer to the solid than the contact distance of 2.5e-05 "
+       "m by "
+       "7.25e-05 m"},
       {"[[drop]]\ndiameter = 1e-3\n[[drop]]\ndiameter = 1e-3\ncentre_y = 2e-3\n"
        "[[drop]]\ndiameter = 1e-3\ncentre_y = 1.5e-3\n",
        "the drops 2 and 3 overlap at the start, at x = 1.25e-05 m, y = 0.002 m;"}};
