@@ -36,8 +36,8 @@ inline Components<Pack> load_lanes(std::span<const Vector> vectors, std::size_t 
 }
 
 inline void store_lanes(const Components<Pack>& lanes, std::span<Vector> vectors, std::size_t k) {
-  double* const numbers = &vectors[k].x;
 #if defined(__AVX512F__)
+  double* const numbers = &vectors[k].x;
   using Line = double __attribute__((vector_size(64)));
   const auto x = std::bit_cast<Line>(lanes.x), y = std::bit_cast<Line>(lanes.y);
   store(std::bit_cast<Pack>(Line(__builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11))), numbers);
