@@ -16,6 +16,10 @@ constexpr std::size_t whole_vectors(std::size_t count) {
   return (count + lanes - 1) / lanes * lanes;
 }
 
+/// As wide as compilers make the loops that fill what is loaded: a load of what two stores have written waits for both.
+using LoopPack =
+    std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, std::min<std::size_t>(lanes, 4)>>;
+
 /// Directions closer than this (radians) count as one. Gaps narrower are covered: on symmetric arrangements several
 /// circles meet in one point, where round-off alone decides whether there is a gap.
 constexpr double angle_tolerance = 1e-9;
@@ -106,9 +110,10 @@ bool ArcFinder::is_farther(Place a, Place b) const {
 }
 
 double ArcFinder::least(const std::vector<double>& values) const {
-  using std::experimental::min;
-  Pack least_of_lane = load(values.data());
-  for (std::size_t k = lanes; k < count_; k += lanes) least_of_lane = min(least_of_lane, load(&values[k]));
+  using std::experimental::element_aligned, std::experimental::min;
+  LoopPack least_of_lane(values.data(), element_aligned);
+  for (std::size_t k = LoopPack::size(); k < count_; k += LoopPack::size())
+    least_of_lane = min(least_of_lane, LoopPack(&values[k], element_aligned));
   return hmin(least_of_lane);
 }
 

@@ -75,7 +75,7 @@ TEST(NearDirections, HoldForTheWidestGapsTheyAccept) {
     }
     EXPECT_TRUE(is_inside(positions, 0));
     EXPECT_GT(least_depth(positions, 0, 720), 0.0) << distance;
-    for (Vector& position : positions) position = (0.8 / distance) * position;
+    for (Vector& position : positions) position = (0.77 / distance) * position;
     EXPECT_FALSE(is_inside(positions, 0));
   }
 }
