@@ -1,6 +1,7 @@
 #include "simulation/surface_share.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "decomposition/id_order.hpp"
@@ -76,6 +77,40 @@ class Sends {
   std::vector<std::vector<int>> ranks_;
 };
 
+/// A node that is wanted for its neighbours' sake: beside it on the curve is the point of a rank's own node, which acts
+/// on that.
+void send_nodes_along_curves(const FluidParticles& fluid, const Distribution& distribution, const SurfaceCurves& curves,
+                             std::span<const Vector> points, std::span<const std::int32_t> row_of_node,
+                             const SurfaceRange& range, Sends& sends) {
+  constexpr int steps = steps_of_a_force + 1;
+  const auto since_detection = [&](std::int32_t row) {
+    const auto at = static_cast<std::size_t>(row);
+    return fluid.list_position.at(at) - fluid.detection_position.at(at);
+  };
+  std::vector<int> ranks;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const SurfaceCurves::Range curve = curves.curve(c);
+    for (std::size_t s = curve.first; s < curve.last; ++s) {
+      // Own nodes about it, itself among them; whose it is, if it is not an own one, is told by how such a one has
+      // moved.
+      std::array<std::int32_t, 2 * steps + 1> own;
+      std::size_t count = 0;
+      std::size_t k = s;
+      for (int step = 0; step < steps; ++step) k = curve.previous(k);
+      for (int step = -steps; step <= steps; ++step, k = curve.next(k))
+        if (row_of_node[k] >= 0) own[count++] = row_of_node[k];
+      if (count == 0) continue;
+      const std::int32_t nearest = row_of_node[s] >= 0 ? row_of_node[s] : own[count / 2];
+      ranks.clear();
+      distribution.other_ranks_within(points[s] + since_detection(nearest), range.action + 2.0 * range.looseness,
+                                      ranks);
+      if (ranks.empty()) continue;
+      for (std::size_t n = 0; n < count; ++n)
+        sends.of(own[n]).insert(sends.of(own[n]).end(), ranks.begin(), ranks.end());
+    }
+  }
+}
+
 }  // namespace
 
 SurfaceShare share_of_surface(const Communicator& communicator, const FluidParticles& fluid,
@@ -102,23 +137,10 @@ SurfaceShare share_of_surface(const Communicator& communicator, const FluidParti
     const Vector place = fluid.list_position.at(static_cast<std::size_t>(row));
     distribution.other_ranks_within(place, 2.0 * range.action + range.looseness, sends.of(row));
   }
-  // A node that is wanted for its neighbour's sake has an own node of that rank, whose point acts on it, beside it.
-  constexpr int steps = steps_of_a_force + 1;
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    const SurfaceCurves::Range curve = curves.curve(c);
-    for (std::size_t k = curve.first; k < curve.last; ++k) {
-      const std::int32_t row = row_of_node[k];
-      if (row < 0) continue;
-      const auto at = static_cast<std::size_t>(row);
-      const Vector since_detection = fluid.list_position.at(at) - fluid.detection_position.at(at);
-      std::vector<int>& ranks = sends.of(row);
-      if (whole_at >= 0 && whole_at != communicator.rank()) ranks.push_back(whole_at);
-      std::size_t s = k;
-      for (int step = 0; step < steps; ++step) s = curve.previous(s);
-      for (int step = -steps; step <= steps; ++step, s = curve.next(s))
-        distribution.other_ranks_within(points[s] + since_detection, range.action + range.looseness, ranks);
-    }
-  }
+  if (whole_at >= 0 && whole_at != communicator.rank())
+    for (const std::int32_t row : row_of_node)
+      if (row >= 0) sends.of(row).push_back(whole_at);
+  send_nodes_along_curves(fluid, distribution, curves, points, row_of_node, range, sends);
   share.sends = sends.by_rank();
   return share;
 }
