@@ -58,8 +58,8 @@ TEST(LoadBalance, OfADropAlone) {
   EXPECT_LE(imbalance_of("", "2e-3", "", {0.9, 0.65}), 1.05);
 }
 
-// 5027 particles fill 690 cells as wide as the lists reach, 20107 four times as many: the same 172 as cells four times as
-// wide.
+// 5027 particles fill 690 cells as wide as the lists reach, 20107 four times as many: the same 172 as cells four times
+// as wide.
 TEST(LoadBalance, OfLargerCells) {
   const auto coarse = [](int cells) { return "[parallel]\ncells_per_process = " + std::to_string(cells) + "\n"; };
   const int ranks = Communicator(MPI_COMM_WORLD).size();
@@ -68,6 +68,26 @@ TEST(LoadBalance, OfLargerCells) {
   EXPECT_LE(imbalance_of("mode = \"modern\"\n", "2e-3",
                          "[solid]\nkind = \"cantilever\"\nlength = 16e-3\n" + coarse(160 / ranks), {0.125, 0.65}, 2),
             1.05);
+}
+
+// All must agree on it, whichever particles each sets up.
+TEST(EdgeOfTheCells, FollowsFromTheWholeBeam) {
+  const Communicator communicator(MPI_COMM_WORLD);
+  for (const char* mode : {"", "mode = \"modern\"\n"}) {
+    const Case input = parse_case_text(std::string(mode) +
+                                           "[resolution]\nspacing = 2.5e-5\n[time]\nend = 1e-3\n"
+                                           "[drop]\nshape = \"none\"\n[solid]\nkind = \"cantilever\"\n"
+                                           "length = 64e-3\nthickness = 1e-3\n[parallel]\ncells_per_process = " +
+                                           std::to_string(160 / communicator.size()) + "\n",
+                                       "test.cfg")
+                           .values;
+    const InitialState whole = build_initial_state(input),
+                       share = build_initial_state(input, {communicator.rank(), communicator.size()});
+    const double expected = Simulation(communicator, input, whole.fluid, whole.solid).distribution().cell_edge();
+    const Simulation simulation(communicator, input, share.fluid, share.solid);
+    EXPECT_EQ(simulation.distribution().cell_edge(), expected);
+    EXPECT_GE(expected, 2 * simulation.distribution().range().list_reach());
+  }
 }
 
 TEST(LoadBalance, OfADropOnABeamOfCells) {
