@@ -151,29 +151,4 @@ void curvatures(const SurfaceCurves& curves, std::span<const Vector> points, int
   }
 }
 
-double total_length(const SurfaceCurves& curves, std::span<const Vector> points) {
-  assert(points.size() == curves.nodes.size());
-  double sum = 0.0;
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    const SurfaceCurves::Range curve = curves.curve(c);
-    if (!curve.carries_force()) continue;
-    for (std::size_t k = curve.first; k < curve.last; ++k) sum += length(points[curve.next(k)] - points[k]);
-  }
-  return sum;
-}
-
-double total_area(const SurfaceCurves& curves, std::span<const Vector> points) {
-  assert(points.size() == curves.nodes.size());
-  double sum = 0.0;
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    const SurfaceCurves::Range curve = curves.curve(c);
-    if (!curve.carries_force()) continue;
-    // From a point of the curve, so that its place in the plane costs no digits.
-    const Vector origin = points[curve.first];
-    for (std::size_t k = curve.first; k < curve.last; ++k)
-      sum += 0.5 * cross(points[k] - origin, points[curve.next(k)] - origin);
-  }
-  return sum;
-}
-
 }  // namespace sphdrop

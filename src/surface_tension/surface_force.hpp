@@ -12,7 +12,7 @@
 namespace sphdrop {
 
 /// F_k = sigma (t_{k,k+1} - t_{k-1,k}), t the unit vectors along the curve's segments: minus the gradient of
-/// sigma * total_length. Sums to zero round every curve, and so does its moment. Used instead of Eq 31 by default.
+/// sigma times their length. Sums to zero round every curve, and so does its moment. Used instead of Eq 31 by default.
 void conservative_forces(const SurfaceCurves& curves, std::span<const Vector> points, double sigma,
                          std::span<Vector> forces);
 
@@ -32,11 +32,5 @@ void add_pressure_forces(const SurfaceCurves& curves, std::span<const Vector> po
 /// -1/R on a bubble's.
 void curvatures(const SurfaceCurves& curves, std::span<const Vector> points, int polynomial_points,
                 std::span<double> curvature);
-
-/// Length of all curves, m: times sigma, the surface energy per metre of depth.
-double total_length(const SurfaceCurves& curves, std::span<const Vector> points);
-
-/// Area of the liquid within all curves, holes taken off, m2.
-double total_area(const SurfaceCurves& curves, std::span<const Vector> points);
 
 }  // namespace sphdrop

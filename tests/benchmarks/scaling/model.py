@@ -28,7 +28,8 @@ PAGE = FOLDER.parent / "SCALING.md"
 LIST_REACH = 2.7  # 2h + skin with h = 1.2 d, skin = 0.3 d
 BAND = 2.6  # rows of liquid that surface points act on, along the curve: 2h + 0.2 d
 LOOSENESS = 0.4  # of the distances by which ranks know who needs a particle of the band: a skin and a little
-PERIMETER = 4.85  # of a part, over the square root of its particles: fit(); a square's is 4
+PERIMETER = 4.96  # of a part, over the square root of its particles: fit(); a square's is 4
+LONGEST_BORDER = 1.35  # of a part, over the square root of all particles: of few parts, which are cut straight; a diameter's is 1.13
 COLUMN_BYTES = 8
 HALO_COLUMNS = 5  # position, velocity, density
 BAND_COLUMNS = 2  # position
@@ -36,6 +37,7 @@ REDUCED_BYTES = 120
 CONTRIBUTION_BYTES = 24  # what a rank says of a cell
 CELLS_OF_A_RANK = 64  # parallel.cells_per_process: a rank has so many at least, and less than four times as many
 ARC_BYTES = 96
+TWICE = 10  # nodes of a rank's piece that others work on too: 8 to 10 of 4 and of 8 ranks, which test_surface_share.cpp bounds
 
 
 @dataclass(frozen=True)
@@ -45,9 +47,9 @@ class Costs:
     particle: float
     imbalance: float
     curve_point: float
-    weighed_point: float
     detection_particle: float
     detection_arc: float
+    joined_arc: float
     list_particle: float
     list_cell: float
     partition_cell: float
@@ -56,8 +58,9 @@ class Costs:
     redistributions_between_partitions: float
     packed_row: float
     set_up_particle: float
+    walked_particle: float
     particle_bytes: float
-    replicated_bytes: float
+    set_up_bytes: float
     cell_bytes: float
 
 
@@ -84,21 +87,21 @@ class Network:
 class Design:
     """What is done on one rank, or on every rank for all; False as the program is, True if it were mended."""
 
-    shared_interface: bool = False  # each rank works on its part of the curve
+    shared_arcs: bool = False  # each rank joins the arcs about its own
     shared_cells: bool = False  # a rank knows the cells about its own; parts are cut from a space-filling curve
-    shared_set_up: bool = False  # a rank makes its own particles
+    shared_walk: bool = False  # a rank goes through its own particles only as they are set up
 
 
 @dataclass(frozen=True)
 class Traffic:
-    """Of a rank in a step: messages sent and received, and their bytes; mean over the ranks, and at the owner."""
+    """Of a rank in a step: messages sent and received, and their bytes; mean over the ranks, and where the surface is."""
 
     messages: float
     size: float
-    owner_messages: float
-    owner_size: float
+    surface_messages: float
+    surface_size: float
     halo_rows: float  # received, mean
-    band_rows: float  # gathered
+    band_rows: float  # received, at the surface
 
 
 @dataclass(frozen=True)
@@ -106,11 +109,11 @@ class StepTime:
     """Of a step, s, on the rank that the others wait for."""
 
     particles: float
-    owner: float
+    surface: float
     halo: float
-    gather: float
     reduction: float
     detection: float
+    joining: float
     redistribution: float
     partition: float
 
@@ -129,8 +132,12 @@ def curve_points(particles: float) -> float:
     return 2 * math.sqrt(math.pi * particles)
 
 
-def occupied_cells(particles: float) -> float:
-    return particles / LIST_REACH**2
+def dealt_out_cells(particles: float, ranks: int) -> float:
+    """As wide as the lists reach; wider, by powers of two, as long as there are CELLS_OF_A_RANK."""
+    cells = particles / LIST_REACH**2
+    while cells / 4 >= CELLS_OF_A_RANK * ranks:
+        cells /= 4
+    return cells
 
 
 def parts_at_surface(ranks: int) -> float:
@@ -139,56 +146,54 @@ def parts_at_surface(ranks: int) -> float:
 
 
 def traffic(particles: float, ranks: int, perimeter: float = PERIMETER) -> Traffic:
-    """What stands between two parts is sent both ways; the drop's own perimeter is nobody's neighbour."""
+    """What stands between two parts is sent both ways; the drop's own perimeter is nobody's neighbour. Where the border of
+    two parts meets the surface, each sends the other its particles of the band that share a surface point with one of the
+    other's."""
     if ranks == 1:
         return Traffic(0, 0, 0, 0, 0, 0)
-    points = curve_points(particles)
-    halo_rows = LIST_REACH * (perimeter * math.sqrt(particles / ranks) - points / ranks)
-    band_rows = BAND * points
-    contributors = parts_at_surface(ranks)
-    sent_band = band_rows * (1 - 1 / contributors)
+    border = perimeter * math.sqrt(particles / ranks) - curve_points(particles) / ranks
+    halo_rows = LIST_REACH * min(border, LONGEST_BORDER * math.sqrt(particles))
+    band_rows = 2 * BAND * (2 * BAND + LOOSENESS)  # at both ends of its piece
     halo_size = 2 * COLUMN_BYTES * HALO_COLUMNS * halo_rows
-    band_size = COLUMN_BYTES * (GATHERED_COLUMNS + RETURNED_COLUMNS) * sent_band
-    neighbours = min(ranks - 1.0, 5.0)
-    owner_messages = 2 * (contributors - 1)
+    band_size = 2 * COLUMN_BYTES * BAND_COLUMNS * band_rows
+    neighbours, beside = min(ranks - 1.0, 5.0), min(ranks - 1.0, 2.0)
+    at_surface = parts_at_surface(ranks) / ranks
     return Traffic(
-        messages=2 * neighbours + 2 * owner_messages / ranks,
-        size=halo_size + 2 * band_size / ranks,
-        owner_messages=2 * neighbours + owner_messages,
-        owner_size=halo_size + band_size,
+        messages=2 * neighbours + 2 * beside * at_surface,
+        size=halo_size + band_size * at_surface,
+        surface_messages=2 * neighbours + 2 * beside,
+        surface_size=halo_size + band_size,
         halo_rows=halo_rows,
         band_rows=band_rows,
     )
 
 
 def step_time(particles: float, ranks: int, costs: Costs, network: Network = Network(), design: Design = Design()) -> StepTime:
-    """The owner works on the curve besides, and has fewer particles by what that counts for; what it gathers is under way
-    during the sweep, what it sends back is not; the halo is under way likewise."""
+    """The surface's work is dealt out with the particles; what two ranks both work on, at the ends of their pieces, is not.
+    Halo and band are under way during the sweep of what needs neither."""
     counted = traffic(particles, ranks)
-    points, cells, own = curve_points(particles), occupied_cells(particles), particles / ranks
+    points, cells, own = curve_points(particles), dealt_out_cells(particles, ranks), particles / ranks
+    uneven = 1 + (costs.imbalance if ranks > 1 else 0.0)
     sweep = costs.particle * own
-    workers = parts_at_surface(ranks) if design.shared_interface else 1.0
-    halo = network.message(2 * min(ranks - 1.0, 5.0), 2 * COLUMN_BYTES * HALO_COLUMNS * counted.halo_rows)
-    gathered = network.message(counted.owner_messages / 2, COLUMN_BYTES * GATHERED_COLUMNS * counted.band_rows)
+    twice = TWICE if ranks > 1 else 0.0
+    exchanged = network.message(counted.surface_messages / 2, counted.surface_size / 2)
     hidden = max(0.0, sweep - costs.particle * min(own, 2 * counted.halo_rows))
-    inside = max(0.0, halo + gathered / workers - hidden)
-    band_copies = 2 * costs.packed_row * counted.band_rows
     table = costs.list_cell * cells
     cells_to_all = network.gather_to_all(ranks, CONTRIBUTION_BYTES * cells)
     cut = costs.partition_cell * cells if ranks > 1 else 0.0
     if design.shared_cells:
         table, cells_to_all, cut = table / ranks, network.reduction(ranks), cut / ranks
-    arcs = (costs.detection_arc * points + network.gather_to_all(ranks, ARC_BYTES * points)) / workers
+    joined = costs.joined_arc * points + network.gather_to_all(ranks, ARC_BYTES * points)
+    if design.shared_arcs:
+        joined = costs.joined_arc * points / parts_at_surface(ranks) + network.reduction(ranks)
     rebuilds = 1 / costs.steps_between_redistributions
-    owner = (costs.curve_point * points + band_copies) / workers
-    weighed = min(costs.weighed_point * points, MOST_WEIGHED * own) * costs.particle if ranks > 1 and not design.shared_interface else 0.0
     return StepTime(
-        particles=(sweep + weighed / ranks) * (1 + (costs.imbalance if ranks > 1 else 0.0)),
-        owner=max(0.0, owner - weighed),
-        halo=inside + 2 * costs.packed_row * counted.halo_rows,
-        gather=gathered / workers if ranks > 1 else 0.0,
+        particles=sweep * uneven,
+        surface=costs.curve_point * (points / ranks * uneven + twice),
+        halo=max(0.0, exchanged - hidden) + 2 * costs.packed_row * (counted.halo_rows + counted.band_rows),
         reduction=network.reduction(ranks),
-        detection=(costs.detection_particle * own + arcs) / costs.steps_between_detections,
+        detection=(costs.detection_particle * own + costs.detection_arc * points / parts_at_surface(ranks)) / costs.steps_between_detections,
+        joining=joined / costs.steps_between_detections,
         redistribution=(costs.list_particle * own + table + cells_to_all) * rebuilds,
         partition=cut * rebuilds / costs.redistributions_between_partitions,
     )
@@ -221,27 +226,28 @@ def useful_ranks(particles: float, costs: Costs, network: Network = Network(), d
 def memory(particles: float, ranks: int, costs: Costs, design: Design = Design()) -> tuple[float, float]:
     """Bytes on a rank: while the drop is set up, and in a step."""
     own = particles / ranks
-    cells = occupied_cells(particles) / (ranks if design.shared_cells else 1)
-    whole = own if design.shared_set_up else particles
+    cells = dealt_out_cells(particles, ranks) / (ranks if design.shared_cells else 1)
     in_a_step = costs.particle_bytes * (own + traffic(particles, ranks).halo_rows) + costs.cell_bytes * cells
-    return costs.replicated_bytes * whole + costs.particle_bytes * own, in_a_step
+    return (costs.set_up_bytes + costs.particle_bytes) * own, in_a_step
 
 
 def set_up_time(particles: float, ranks: int, costs: Costs, design: Design = Design()) -> float:
     """Making the initial state, s."""
-    return costs.set_up_particle * (particles / ranks if design.shared_set_up else particles)
+    return costs.set_up_particle * particles / ranks + (0.0 if design.shared_walk else costs.walked_particle * particles)
 
 
 def fit_perimeter(counted: Iterable[tuple[float, int, float]]) -> float:
     """The perimeter with which traffic() comes nearest to counted (particles, ranks, mean bytes), in the least squares of
-    relative errors."""
+    relative errors; of so many ranks that parts are not cut straight."""
     slopes, rests = [], []
     for particles, ranks, size in counted:
-        without = traffic(particles, ranks, 0.0).size
-        slopes.append((traffic(particles, ranks, 1.0).size - without) / size)
-        rests.append(1 - without / size)
+        if ranks <= 8:
+            continue
+        few, more = traffic(particles, ranks, 3.0).size, traffic(particles, ranks, 4.0).size
+        slopes.append((more - few) / size)
+        rests.append(1 - few / size)
     solution = np.linalg.lstsq(np.array(slopes)[:, None], np.array(rests), rcond=None)[0]
-    return float(solution[0])
+    return 3.0 + float(solution[0])
 
 
 def counted_traffic(path: Path = FOLDER / "traffic.csv", case: str = "oscillating_droplet") -> list[dict[str, float]]:
@@ -265,8 +271,8 @@ def si(value: float) -> str:
 
 MENDED = {
     "as it is": Design(),
-    "cells shared": Design(shared_cells=True, shared_set_up=True),
-    "cells and interface shared": Design(True, True, True),
+    "cells shared": Design(shared_cells=True, shared_walk=True),
+    "cells and arcs shared": Design(True, True, True),
 }
 
 
@@ -283,7 +289,7 @@ def tables(costs: Costs) -> str:
     names = [field.name for field in fields(StepTime)]
     lines += ["", "A step, as the program is:", ""]
     lines += ["| particles | ranks | " + " | ".join(names) + " | step | efficiency |", "|---" * (4 + len(names)) + "|"]
-    for particles, ranks in ((1e6, 16), (1e6, 256), (1e8, 256), (1e8, 10_000), (1e9, 10_000)):
+    for particles, ranks in ((1e6, 16), (1e6, 256), (1e8, 1024), (1e8, 10_000), (1e9, 10_000)):
         time = step_time(particles, ranks, costs)
         parts = " | ".join(si(getattr(time, name)) for name in names)
         lines.append(f"| {particles:.0e} | {ranks} | {parts} | {si(time.total)} | {efficiency(particles, ranks, costs):.2f} |")
@@ -293,9 +299,9 @@ def tables(costs: Costs) -> str:
         shares = " | ".join(f"{weak_efficiency(1e5, ranks, costs, design=design):.2f}" for design in MENDED.values())
         lines.append(f"| {ranks} | {1e5 * ranks:.0e} | {shares} |")
     lines += ["", "Memory of a rank:", ""]
-    lines += ["| particles | ranks | set up | in a step | set up, mended | in a step, mended | time to set up |", "|---" * 7 + "|"]
+    lines += ["| particles | ranks | set up | in a step | in a step, cells shared | time to set up |", "|---" * 6 + "|"]
     for particles, ranks in ((1e6, 16), (1e8, 1024), (1e9, 10_000)):
-        sizes = (*memory(particles, ranks, costs), *memory(particles, ranks, costs, Design(True, True, True)))
+        sizes = (*memory(particles, ranks, costs), memory(particles, ranks, costs, Design(True, True, True))[1])
         lines.append(f"| {particles:.0e} | {ranks} | " + " | ".join(f"{size / 1e9:.3g} GB" for size in sizes) + f" | {si(set_up_time(particles, ranks, costs))} |")
     return "\n".join(lines)
 

@@ -58,8 +58,7 @@ TEST(LoadBalance, OfADropAlone) {
   EXPECT_LE(imbalance_of("", "2e-3", "", {0.9, 0.65}), 1.05);
 }
 
-// 5027 particles fill 690 cells as wide as the lists reach, 20107 four times as many: the same 172 as cells four times
-// as wide.
+// 5027 particles fill 690 cells as wide as the lists reach, 20107 four times as many: all dealt out by 172 wider ones.
 TEST(LoadBalance, OfLargerCells) {
   const auto coarse = [](int cells) { return "[parallel]\ncells_per_process = " + std::to_string(cells) + "\n"; };
   const int ranks = Communicator(MPI_COMM_WORLD).size();

@@ -54,6 +54,11 @@ TEST(SurfaceShare, IsAPieceForEachRank) {
   const double outline = std::numbers::pi * 3e-3 / 2.5e-5;
   EXPECT_GT(static_cast<double>(all), outline / std::numbers::sqrt2 - 20);
   EXPECT_LT(static_cast<double>(all), outline);
+  const SurfaceReport report = surface.report();
+  EXPECT_NEAR(report.length, std::numbers::pi * 3e-3, 0.02 * report.length);
+  EXPECT_NEAR(report.area, std::numbers::pi * 1.5e-3 * 1.5e-3, 0.005 * report.area);
+  EXPECT_NEAR(report.mean_curvature, 1 / 1.5e-3, 0.05 / 1.5e-3);  // of a staircase
+  EXPECT_EQ(report.curve_count, 1);
   EXPECT_GE(worked_on, own);
   if (run.communicator.size() == 1) {
     EXPECT_EQ(worked_on, all);
