@@ -37,7 +37,7 @@ class LatticeCells {
   LatticeCells(std::span<const ColumnStretch> columns, bool held_at_edge);
 
   std::size_t particle_count() const { return static_cast<std::size_t>(particle_count_); }
-  /// Of particles and cells that are kept, for there are others like them.
+  /// The number of particles whose neighbours and cell are kept; those of the others are like them.
   std::size_t table_size() const { return east_.size(); }
   std::int64_t cell_count() const { return cell_count_; }
   /// The particle one column to the right or left of particle k, or -1.
