@@ -63,6 +63,24 @@ struct BeamLattice {
   }
 };
 
+bool is_held(const BeamLattice& lattice, Clamp clamp, int column, int row) {
+  return row < 0 || row >= lattice.rows || (clamp == Clamp::ideal && lattice.is_clamped(column));
+}
+
+/// Clamp, free part and the other clamp.
+std::vector<ColumnStretch> columns_of(const BeamLattice& lattice, Clamp clamp) {
+  std::vector<ColumnStretch> stretches;
+  int first = 0;
+  for (const int count : {lattice.left_clamp_columns, lattice.free_columns, lattice.right_clamp_columns}) {
+    if (count == 0) continue;
+    ColumnStretch& stretch = stretches.emplace_back(ColumnStretch{count, lattice.lowest_row(first), {}});
+    for (int row = lattice.lowest_row(first); row <= lattice.highest_row(first); ++row)
+      stretch.is_held.push_back(is_held(lattice, clamp, first, row) ? 1 : 0);
+    first += count;
+  }
+  return stretches;
+}
+
 void append_particles(const BeamLattice& lattice, double mass, Clamp clamp, IdRange wanted, InitialSolid& solid) {
   const auto count = static_cast<std::size_t>(wanted.count());
   solid.positions.reserve(count);
@@ -72,9 +90,8 @@ void append_particles(const BeamLattice& lattice, double mass, Clamp clamp, IdRa
     const IdRange mine = IdRange{first, lattice.first_index(column + 1)}.common_with(wanted);
     for (std::int64_t k = mine.first; k < mine.last; ++k) {
       const int row = static_cast<int>(k - first) + lattice.lowest_row(column);
-      const bool is_fixed = row < 0 || row >= lattice.rows || (clamp == Clamp::ideal && lattice.is_clamped(column));
       solid.positions.push_back(lattice.position(column, row));
-      solid.is_fixed.push_back(is_fixed ? 1 : 0);
+      solid.is_fixed.push_back(is_held(lattice, clamp, column, row) ? 1 : 0);
     }
   }
   solid.velocities.resize(count);
@@ -196,6 +213,7 @@ InitialSolid build_beam(const Case::Solid& solid, double spacing, Share share) {
 
   InitialSolid initial;
   append_particles(lattice, solid.density * spacing * spacing, solid.clamp, share.of(lattice.total()), initial);
+  initial.columns = columns_of(lattice, solid.clamp);
   initial.top = lattice.rows * spacing;
   initial.middle_probe = columns_of_rows(lattice, lattice.left_clamp_columns + (lattice.free_columns - 1) / 2,
                                          lattice.left_clamp_columns + lattice.free_columns / 2);

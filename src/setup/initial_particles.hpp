@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "particles/column_stretch.hpp"
 #include "particles/plane_moments.hpp"
 #include "particles/vector.hpp"
 #include "rigid_body/mass_properties.hpp"
@@ -67,6 +68,8 @@ struct InitialSolid {
   /// The parts of the body that belong to a particle, to the south-west, south-east, north-west and north-east of it,
   /// in spacings about it; empty: a quarter of a square of side 1 each.
   std::vector<std::array<PlaneMoments, 4>> quadrants;
+  /// The lattice of a straight beam that is alone, other shares' particles with it; else empty.
+  std::vector<ColumnStretch> columns;
   std::vector<Hold> holds;
   std::vector<Vector> outline;  ///< m; of a polygon or an obstacle
 

@@ -46,12 +46,12 @@ bool is_of_cells(const Case::Solid& solid) {
   return solid.is_elastic() && solid.formulation == SolidFormulation::cells;
 }
 
-/// Of a straight beam of particles, which is alone and whose supports and probes are those of its kind. Cells are kept
-/// as a whole by every process, and the others are small or found by looking at all particles.
+/// Of a straight beam, which is alone and whose supports and probes are those of its kind. Others' cells, supports and
+/// probes are found by looking at all particles.
 bool can_be_shared(const Case& input) {
   const Case::Solid& solid = input.solid;
-  return input.solid_count() == 1 && solid.is_straight_beam() && !is_of_cells(solid) && solid.pinned.empty() &&
-         solid.held_in_x.empty() && solid.held_in_y.empty() && solid.probe.empty();
+  return input.solid_count() == 1 && solid.is_straight_beam() && solid.pinned.empty() && solid.held_in_x.empty() &&
+         solid.held_in_y.empty() && solid.probe.empty();
 }
 
 std::vector<InitialSolid> build_solids(const Case& input, Share share) {

@@ -26,7 +26,7 @@ struct InitialState {
 /// particles, and for what build_beam() refuses; the same whatever the share.
 ///
 /// Of the particles those of `share` are kept and the others never stored, except that a drop from a file is read
-/// whole, and that a solid is whole unless it is one straight beam of particles, without supports or probes of its own.
+/// whole, and that a solid is whole unless it is one straight beam, without supports or probes of its own.
 InitialState build_initial_state(const Case& input, Share share = {});
 
 }  // namespace sphdrop

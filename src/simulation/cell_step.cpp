@@ -1,6 +1,7 @@
 #include "simulation/cell_step.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sphdrop {
 
@@ -14,6 +15,29 @@ AnyCellMaterial cell_material(const Case::Solid& solid, double spacing) {
   if (solid.material_law == MaterialLaw::neo_hookean)
     return CellMaterial<NeoHookean>{{moduli}, bending_modulus, spacing, solid.viscous_time};
   return CellMaterial<StVenantKirchhoff>{{moduli}, bending_modulus, spacing, solid.viscous_time};
+}
+
+LatticeTurn turn_of(const Case::Solid& solid) {
+  if (solid.kind != SolidKind::polygon) return {};
+  const Vector rows = unit({solid.lattice_x, solid.lattice_y});
+  return {rows.x, rows.y};
+}
+
+LatticeCells cells_of(const Case::Solid& solid, const InitialSolid& initial, IdRange particles, double spacing) {
+  const bool held_at_edge = solid.clamp == Clamp::ideal;
+  if (!initial.columns.empty()) return LatticeCells(initial.columns, held_at_edge);
+  // What has no columns is no share.
+  assert(initial.indices().contains(particles) && initial.before == 0);
+  const auto first = static_cast<std::size_t>(particles.first), count = static_cast<std::size_t>(particles.count());
+  std::span<const std::array<PlaneMoments, 4>> quadrants;
+  if (solid.kind == SolidKind::polygon) quadrants = std::span(initial.quadrants).subspan(first, count);
+  // The lattice's own places.
+  std::vector<Vector> places(initial.positions.begin() + static_cast<std::ptrdiff_t>(first),
+                             initial.positions.begin() + static_cast<std::ptrdiff_t>(first + count));
+  const LatticeTurn turn = turn_of(solid);
+  if (!turn.is_none())
+    for (Vector& p : places) p = {turn.cosine * p.x + turn.sine * p.y, turn.cosine * p.y - turn.sine * p.x};
+  return LatticeCells(places, std::span(initial.is_fixed).subspan(first, count), spacing, held_at_edge, quadrants);
 }
 
 }  // namespace
@@ -30,21 +54,8 @@ CellStep::CellStep(const Case& input, const InitialSolid& initial, std::int64_t 
       rigid_.push_back(ids);
       continue;
     }
-    const auto first = static_cast<std::size_t>(ids.begin - first_id), count = static_cast<std::size_t>(ids.size());
-    std::span<const std::array<PlaneMoments, 4>> quadrants;
-    if (solid.kind == SolidKind::polygon) quadrants = std::span(initial.quadrants).subspan(first, count);
-    // The lattice's own places.
-    std::vector<Vector> places(initial.positions.begin() + static_cast<std::ptrdiff_t>(first),
-                               initial.positions.begin() + static_cast<std::ptrdiff_t>(first + count));
-    LatticeTurn turn;
-    if (solid.kind == SolidKind::polygon) {
-      const Vector rows = unit({solid.lattice_x, solid.lattice_y});
-      turn = {rows.x, rows.y};
-      for (Vector& p : places) p = {rows.x * p.x + rows.y * p.y, rows.x * p.y - rows.y * p.x};
-    }
-    bodies_.push_back({LatticeCells(places, std::span(initial.is_fixed).subspan(first, count), spacing_,
-                                    solid.clamp == Clamp::ideal, quadrants),
-                       CellSweep(cell_material(solid, spacing_), turn), solid.density, ids.begin});
+    bodies_.push_back({cells_of(solid, initial, {ids.begin - first_id, ids.end - first_id}, spacing_),
+                       CellSweep(cell_material(solid, spacing_), turn_of(solid)), solid.density, ids.begin});
   }
 }
 

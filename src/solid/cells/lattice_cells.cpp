@@ -33,6 +33,26 @@ std::vector<Place> lattice_places(std::span<const Vector> positions, double spac
   return places;
 }
 
+// A cell and what it gets of its corners' quadrants follow from the column to the left of it, its own two and the next.
+// Of alike columns all cells are the same but for those of the first and of the last two, and so are the neighbours.
+constexpr std::int64_t columns_in_table = 4;
+
+// With no more columns alike.
+struct ShortBody {
+  std::vector<Vector> places;
+  std::vector<char> is_held;
+
+  explicit ShortBody(std::span<const ColumnStretch> stretches) {
+    std::int64_t x = 0;
+    for (const ColumnStretch& stretch : stretches)
+      for (std::int64_t column = 0; column < std::min(stretch.columns, columns_in_table); ++column, ++x)
+        for (std::int64_t row = 0; row < stretch.rows(); ++row) {
+          places.push_back({static_cast<double>(x), static_cast<double>(stretch.lowest_row + row)});
+          is_held.push_back(stretch.is_held[static_cast<std::size_t>(row)]);
+        }
+  }
+};
+
 enum Corner : std::size_t { sw, se, nw, ne };
 // The direction of each corner.
 constexpr std::array<double, 4> to_east{-1, 1, -1, 1}, to_north{-1, -1, 1, 1};
@@ -64,7 +84,8 @@ struct Body {
 }  // namespace
 
 LatticeCells::LatticeCells(std::span<const Vector> positions, std::span<const char> is_held, double spacing,
-                           bool held_at_edge, std::span<const std::array<PlaneMoments, 4>> quadrants) {
+                           bool held_at_edge, std::span<const std::array<PlaneMoments, 4>> quadrants)
+    : particle_count_(static_cast<std::int64_t>(positions.size())) {
   const std::vector<Place> places = lattice_places(positions, spacing);
   const auto count = static_cast<std::int32_t>(places.size());
   const auto place = [&](std::int32_t k) { return places[static_cast<std::size_t>(k)]; };
@@ -168,6 +189,24 @@ LatticeCells::LatticeCells(std::span<const Vector> positions, std::span<const ch
     if (is_new) shapes_.push_back({numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]});
     shape_index_[static_cast<std::size_t>(k)] = found->second;
     ++cell_count_;
+  }
+}
+
+LatticeCells::LatticeCells(std::span<const ColumnStretch> columns, bool held_at_edge) {
+  const ShortBody body(columns);
+  *this = LatticeCells(body.places, body.is_held, 1.0, held_at_edge);
+  std::int32_t begin_in_table = 0;
+  particle_count_ = 0;
+  for (const ColumnStretch& stretch : columns) {
+    const std::int64_t in_table = std::min(stretch.columns, columns_in_table), omitted = stretch.columns - in_table;
+    const auto rows = static_cast<std::int32_t>(stretch.rows());
+    for (std::int32_t k = begin_in_table + rows; omitted > 0 && k < begin_in_table + 2 * rows; ++k)
+      if (shape_index_[static_cast<std::size_t>(k)] >= 0) cell_count_ += omitted;
+    stretches_.push_back({static_cast<std::int32_t>(particle_count_),
+                          static_cast<std::int32_t>(particle_count_ + stretch.particles()), begin_in_table, rows,
+                          static_cast<std::int32_t>(omitted * rows)});
+    particle_count_ += stretch.particles();
+    begin_in_table += static_cast<std::int32_t>(in_table) * rows;
   }
 }
 

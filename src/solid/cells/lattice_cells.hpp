@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "particles/column_stretch.hpp"
 #include "particles/plane_moments.hpp"
 #include "particles/vector.hpp"
 #include "solid/cells/cell.hpp"
@@ -31,22 +32,53 @@ class LatticeCells {
   LatticeCells(std::span<const Vector> positions, std::span<const char> is_held, double spacing, bool held_at_edge,
                std::span<const std::array<PlaneMoments, 4>> quadrants = {});
 
-  std::size_t particle_count() const { return east_.size(); }
+  /// Likewise of a body of those columns. Columns that have alike ones beside them have alike cells, so that what is
+  /// kept does not grow with the length of a stretch.
+  LatticeCells(std::span<const ColumnStretch> columns, bool held_at_edge);
+
+  std::size_t particle_count() const { return static_cast<std::size_t>(particle_count_); }
+  /// The number of particles whose neighbours and cell are kept; those of the others are like them.
+  std::size_t table_size() const { return east_.size(); }
   std::int64_t cell_count() const { return cell_count_; }
   /// The particle one column to the right or left of particle k, or -1.
-  std::int32_t east_of(std::int32_t k) const { return east_[static_cast<std::size_t>(k)]; }
-  std::int32_t west_of(std::int32_t k) const { return west_[static_cast<std::size_t>(k)]; }
+  std::int32_t east_of(std::int32_t k) const { return neighbour(east_, k); }
+  std::int32_t west_of(std::int32_t k) const { return neighbour(west_, k); }
   /// The shape of the cell whose south-west corner is particle k; nullptr if there is none. Its north-west corner is
   /// k + 1, the others are east_of(k) and east_of(k) + 1.
   const CellShape<double>* shape(std::int32_t k) const {
-    const std::int32_t index = shape_index_[static_cast<std::size_t>(k)];
+    const std::int32_t index = shape_index_[static_cast<std::size_t>(place_in_table(k))];
     return index < 0 ? nullptr : &shapes_[static_cast<std::size_t>(index)];
   }
   /// The different shapes.
   std::span<const CellShape<double>> shapes() const { return shapes_; }
 
  private:
-  std::vector<std::int32_t> east_, west_, shape_index_;
+  /// Particles from `begin` on, of columns of `rows`. The table has the first two columns and the last two; those
+  /// `omitted` (particles) between are as the second.
+  struct Stretch {
+    std::int32_t begin = 0, end = 0;
+    std::int32_t begin_in_table = 0, rows = 0, omitted = 0;
+  };
+
+  std::int32_t place_in_table(std::int32_t k) const {
+    if (stretches_.empty()) return k;
+    std::size_t s = 0;
+    while (k >= stretches_[s].end) ++s;
+    const Stretch& stretch = stretches_[s];
+    const std::int32_t from_begin = k - stretch.begin;
+    if (from_begin < stretch.rows) return stretch.begin_in_table + from_begin;
+    if (from_begin < stretch.rows + stretch.omitted)
+      return stretch.begin_in_table + stretch.rows + from_begin % stretch.rows;
+    return stretch.begin_in_table + from_begin - stretch.omitted;
+  }
+  std::int32_t neighbour(const std::vector<std::int32_t>& table, std::int32_t k) const {
+    const std::int32_t here = place_in_table(k), there = table[static_cast<std::size_t>(here)];
+    return there < 0 ? -1 : k + (there - here);
+  }
+
+  std::vector<Stretch> stretches_;  // none: all particles are in the table
+  std::int64_t particle_count_ = 0;
+  std::vector<std::int32_t> east_, west_, shape_index_;  // by place in the table
   std::vector<CellShape<double>> shapes_;
   std::int64_t cell_count_ = 0;
 };

@@ -69,6 +69,26 @@ TEST(LoadBalance, OfLargerCells) {
             1.05);
 }
 
+// All must agree on it, whichever particles each sets up.
+TEST(EdgeOfTheCells, FollowsFromTheWholeBeam) {
+  const Communicator communicator(MPI_COMM_WORLD);
+  for (const char* mode : {"", "mode = \"modern\"\n"}) {
+    const Case input = parse_case_text(std::string(mode) +
+                                           "[resolution]\nspacing = 2.5e-5\n[time]\nend = 1e-3\n"
+                                           "[drop]\nshape = \"none\"\n[solid]\nkind = \"cantilever\"\n"
+                                           "length = 64e-3\nthickness = 1e-3\n[parallel]\ncells_per_process = " +
+                                           std::to_string(160 / communicator.size()) + "\n",
+                                       "test.cfg")
+                           .values;
+    const InitialState whole = build_initial_state(input),
+                       share = build_initial_state(input, {communicator.rank(), communicator.size()});
+    const double expected = Simulation(communicator, input, whole.fluid, whole.solid).distribution().cell_edge();
+    const Simulation simulation(communicator, input, share.fluid, share.solid);
+    EXPECT_EQ(simulation.distribution().cell_edge(), expected);
+    EXPECT_GE(expected, 2 * simulation.distribution().range().list_reach());
+  }
+}
+
 TEST(LoadBalance, OfADropOnABeamOfCells) {
   EXPECT_LE(
       imbalance_of("mode = \"modern\"\n", "2e-3", "[solid]\nkind = \"cantilever\"\nlength = 16e-3\n", {0.125, 0.65}),

@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "config/case_file.hpp"
 #include "setup/initial_state.hpp"
+#include "solid/cells/lattice_cells.hpp"
 
 namespace {
 
@@ -75,10 +77,13 @@ INSTANTIATE_TEST_SUITE_P(OfADrop, SetUpMemory,
 
 // Likewise of a beam of five million, whose boundary every process has: 24 bytes each of 41 000 particles, some of them
 // several times.
-TEST(SetUpMemoryOfABeam, FollowsTheShare) {
+class SetUpMemoryOfABeam : public testing::TestWithParam<const char*> {};
+
+TEST_P(SetUpMemoryOfABeam, FollowsTheShare) {
   const Case input = parse_case_text(
                          "[resolution]\nspacing = 2.5e-5\n[time]\nend = 1e-3\n[drop]\nshape = \"none\"\n[solid]\n"
-                         "kind = \"cantilever\"\nlength = 0.5\nthickness = 6.25e-3\n",
+                         "kind = \"cantilever\"\nlength = 0.5\nthickness = 6.25e-3\n" +
+                             std::string("formulation = \"") + GetParam() + "\"\n",
                          "memory.cfg")
                          .values;
   const std::size_t before = allocated;
@@ -88,6 +93,19 @@ TEST(SetUpMemoryOfABeam, FollowsTheShare) {
   ASSERT_GT(total, 5e6);
   EXPECT_LE(std::abs(static_cast<double>(state.solid.positions.size()) - total / 1000), 1);
   EXPECT_LT(taken, 0.04 * 49 * total) << taken;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEachFormulation, SetUpMemoryOfABeam,
+                         testing::Values("hypoelastic", "total_lagrangian", "cells"));
+
+// Less than a byte for each of five million particles: of the columns eight are kept.
+TEST(MemoryOfCells, FollowsTheColumnsThatDiffer) {
+  const std::vector<ColumnStretch> columns{{20, -3, std::vector<char>(256, 1)}, {20000, 0, std::vector<char>(250, 0)}};
+  const std::size_t before = allocated;
+  const LatticeCells cells(columns, false);
+  EXPECT_EQ(cells.particle_count(), 20U * 256 + 20000U * 250);
+  EXPECT_LT(allocated - before, 1000000U);
+  EXPECT_LE(cells.table_size(), 8U * 256);
 }
 
 }  // namespace

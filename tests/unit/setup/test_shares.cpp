@@ -153,6 +153,7 @@ TEST_P(SharesOfABeam, TogetherAreTheBeamBitForBit) {
       EXPECT_EQ(part.middle_probe, whole.middle_probe);
       EXPECT_EQ(part.contact_polylines, whole.contact_polylines);
       EXPECT_EQ(part.polyline_places, whole.polyline_places);
+      EXPECT_EQ(part.columns, whole.columns);
       joined.positions.insert(joined.positions.end(), part.positions.begin(), part.positions.end());
       joined.velocities.insert(joined.velocities.end(), part.velocities.begin(), part.velocities.end());
       joined.masses.insert(joined.masses.end(), part.masses.begin(), part.masses.end());
@@ -178,20 +179,48 @@ TEST_P(SharesOfABeam, KnowWhereItsBoundaryRuns) {
   EXPECT_EQ(static_cast<std::size_t>(std::count(whole.is_fixed.begin(), whole.is_fixed.end(), 0)), part.mobile_count);
 }
 
+TEST_P(SharesOfABeam, KnowAllColumns) {
+  const Case input = parse(fall + GetParam());
+  const InitialSolid whole = build_initial_state(input).solid;
+  const double spacing = input.resolution.spacing;
+  // Rounding to the lattice, from a particle that is known to stand in column 0.
+  const auto steps = [&](double from, double to) { return std::floor((to - from) / spacing + 0.5); };
+  ASSERT_FALSE(whole.columns.empty());
+  std::size_t k = 0;
+  double column = 0;
+  for (const ColumnStretch& stretch : whole.columns)
+    for (std::int64_t c = 0; c < stretch.columns; ++c, ++column)
+      for (std::int64_t row = 0; row < stretch.rows(); ++row, ++k) {
+        ASSERT_LT(k, whole.positions.size());
+        EXPECT_EQ(steps(whole.positions[0].x, whole.positions[k].x), column);
+        EXPECT_EQ(steps(whole.positions[0].y, whole.positions[k].y),
+                  static_cast<double>(stretch.lowest_row + row - whole.columns.front().lowest_row));
+        EXPECT_EQ(whole.is_fixed[k], stretch.is_held[static_cast<std::size_t>(row)]);
+      }
+  EXPECT_EQ(k, whole.positions.size());
+}
+
 INSTANTIATE_TEST_SUITE_P(
     OfEveryKind, SharesOfABeam,
     testing::Values("[solid]\nkind = \"cantilever\"\nlength = 4e-3\ninitial_tip_velocity = 0.1\n",
                     "[solid]\nkind = \"cantilever\"\nlength = 4e-3\nclamp = \"ideal\"\n",
                     "[solid]\nkind = \"fixed_fixed_beam\"\nlength = 4e-3\norigin = [1e-3, 2e-3]\n",
-                    "[solid]\nkind = \"fixed_fixed_beam\"\nlength = 4e-3\nformulation = \"total_lagrangian\"\n"));
+                    "[solid]\nkind = \"fixed_fixed_beam\"\nlength = 4e-3\nformulation = \"total_lagrangian\"\n",
+                    "[solid]\nkind = \"cantilever\"\nlength = 4e-3\nformulation = \"cells\"\n",
+                    "[solid]\nkind = \"fixed_fixed_beam\"\nlength = 4e-3\nclamp = \"ideal\"\n"
+                    "formulation = \"cells\"\norigin = [1e-3, 2e-3]\n"));
 
-// Whose supports are found among all particles, or whose cells every process keeps, is whole on each.
+// Whose supports are found among all particles is whole on each process.
 TEST(SolidThatIsNotShared, IsWhole) {
-  for (const char* solid : {"[solid]\nkind = \"cantilever\"\nlength = 4e-3\nformulation = \"cells\"\n",
-                            "[solid]\nkind = \"cantilever\"\nlength = 4e-3\npinned = [[2e-3, 0]]\n",
+  for (const char* solid : {"[solid]\nkind = \"cantilever\"\nlength = 4e-3\npinned = [[2e-3, 0]]\n",
+                            "[solid]\nkind = \"cantilever\"\nlength = 4e-3\nformulation = \"cells\"\n"
+                            "held_in_y = [[2e-3, 0]]\n",
                             "[solid]\nkind = \"cantilever\"\nlength = 4e-3\nprobe = [[2e-3, 0]]\n",
                             "[[solid]]\nkind = \"cantilever\"\nlength = 4e-3\n"
-                            "[[solid]]\nkind = \"cantilever\"\nlength = 4e-3\norigin = [0, -3e-3]\n"}) {
+                            "[[solid]]\nkind = \"cantilever\"\nlength = 4e-3\norigin = [0, -3e-3]\n",
+                            "[[solid]]\nkind = \"cantilever\"\nlength = 4e-3\nformulation = \"cells\"\n"
+                            "[[solid]]\nkind = \"cantilever\"\nlength = 4e-3\nformulation = \"cells\"\n"
+                            "origin = [0, -3e-3]\n"}) {
     const Case input = parse(fall + solid);
     const InitialSolid whole = build_initial_state(input).solid, part = build_initial_state(input, {1, 3}).solid;
     EXPECT_EQ(hash_of(part.positions), hash_of(whole.positions));

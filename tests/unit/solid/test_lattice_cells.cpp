@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <set>
+#include <array>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "solid/cells/lattice_cells.hpp"
+#include "tests/support/same_bits.hpp"
 #include "tests/unit/solid/lattice_body.hpp"
 
 namespace sphdrop {
@@ -120,6 +123,79 @@ TEST(LatticeCells, EndAtTheEdgeOfAnIdealClamp) {
   EXPECT_DOUBLE_EQ(left.area, 0.75);
   EXPECT_DOUBLE_EQ(left.centroid_x, 0.0);  // in the middle of the half that is left
   EXPECT_DOUBLE_EQ(left.moment_x, 1.5 * 0.125 / 12);
+}
+
+LatticeBody body_of(const std::vector<ColumnStretch>& columns) {
+  LatticeBody body;
+  double x = 0;
+  for (const ColumnStretch& stretch : columns)
+    for (std::int64_t column = 0; column < stretch.columns; ++column, ++x)
+      for (std::int64_t row = 0; row < stretch.rows(); ++row) {
+        body.positions.push_back(d * Vector{x, static_cast<double>(stretch.lowest_row + row)});
+        body.is_held.push_back(stretch.is_held[static_cast<std::size_t>(row)]);
+      }
+  return body;
+}
+
+void expect_same_shape(const CellShape<double>* one, const CellShape<double>* other) {
+  ASSERT_EQ(one == nullptr, other == nullptr);
+  if (one == nullptr) return;
+  EXPECT_TRUE(test::same_bits(one->area, other->area));
+  EXPECT_TRUE(test::same_bits(one->centroid_x, other->centroid_x));
+  EXPECT_TRUE(test::same_bits(one->centroid_y, other->centroid_y));
+  EXPECT_TRUE(test::same_bits(one->moment_x, other->moment_x));
+  EXPECT_TRUE(test::same_bits(one->moment_y, other->moment_y));
+  EXPECT_TRUE(test::same_bits(one->inverse_width_x, other->inverse_width_x));
+  EXPECT_TRUE(test::same_bits(one->inverse_width_y, other->inverse_width_y));
+}
+
+/// Every particle's by `columns` as if all were looked at.
+void expect_cells_of_all(const std::vector<ColumnStretch>& columns, bool held_at_edge) {
+  const LatticeBody body = body_of(columns);
+  const LatticeCells expected(body.positions, body.is_held, d, held_at_edge), cells(columns, held_at_edge);
+  ASSERT_EQ(cells.particle_count(), expected.particle_count());
+  EXPECT_EQ(cells.cell_count(), expected.cell_count());
+  ASSERT_EQ(cells.shapes().size(), expected.shapes().size());
+  for (std::size_t s = 0; s < cells.shapes().size(); ++s) expect_same_shape(&cells.shapes()[s], &expected.shapes()[s]);
+  for (std::int32_t k = 0; k < static_cast<std::int32_t>(cells.particle_count()); ++k) {
+    SCOPED_TRACE(k);
+    EXPECT_EQ(cells.east_of(k), expected.east_of(k));
+    EXPECT_EQ(cells.west_of(k), expected.west_of(k));
+    expect_same_shape(cells.shape(k), expected.shape(k));
+  }
+}
+
+// Any three of these stretches side by side meet in all kinds of corners; of 1 to 9 columns nothing to much is left
+// out.
+TEST(LatticeCells, OfStretchesAreThoseOfAllTheirColumns) {
+  const std::vector<ColumnStretch> kinds{{0, 0, {0, 0, 0, 0}},
+                                         {0, -2, {1, 1, 0, 0, 0, 0, 1, 1}},
+                                         {0, 0, {1, 1, 1, 1}},
+                                         {0, -1, {0, 0, 0, 1}},
+                                         {0, 1, {0, 0, 0, 0, 0, 0}}};
+  for (const bool held_at_edge : {false, true})
+    for (const ColumnStretch& left : kinds)
+      for (const ColumnStretch& middle : kinds)
+        for (const ColumnStretch& right : kinds)
+          for (const auto& [a, b, c] : {std::array{2, 9, 3}, {4, 2, 5}, {5, 4, 6}, {6, 2, 4}, {7, 5, 2}, {3, 3, 8}}) {
+            std::vector<ColumnStretch> columns{left, middle, right};
+            columns[0].columns = a;
+            columns[1].columns = b;
+            columns[2].columns = c;
+            SCOPED_TRACE(std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c));
+            expect_cells_of_all(columns, held_at_edge);
+            if (HasFailure()) return;
+          }
+}
+
+TEST(LatticeCells, OfStretchesAreKeptOnceForAlikeColumns) {
+  const std::vector<char> clamp{1, 1, 0, 0, 0, 1, 1}, free{0, 0, 0};
+  const std::vector<ColumnStretch> longer{{50, -2, clamp}, {7000, 0, free}, {50, -2, clamp}},
+      shorter{{4, -2, clamp}, {4, 0, free}, {4, -2, clamp}};
+  EXPECT_EQ(LatticeCells(longer, false).table_size(), LatticeCells(shorter, false).particle_count());
+  expect_cells_of_all(longer, false);
+  expect_cells_of_all(longer, true);
+  expect_cells_of_all({{1, -2, clamp}, {30, 0, free}, {1, -2, clamp}}, false);
 }
 
 TEST(LatticeCells, RefuseWhatIsNoLattice) {
