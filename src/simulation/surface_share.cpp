@@ -68,6 +68,7 @@ class Sends {
       }
     }
     std::vector<RankRows> sends;
+    sends.reserve(collected.size());
     for (auto& [rank, rows] : collected) sends.push_back(std::move(rows));
     return sends;
   }
