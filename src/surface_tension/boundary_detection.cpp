@@ -207,7 +207,7 @@ void ArcFinder::append_arcs(std::int64_t particle, std::vector<Arc>& arcs) {
     }
     remaining = angle_ahead(direction, origin);
   }
-  assert(!"the walk round the circle must come back to its beginning");
+  assert(false && "the walk round the circle must come back to its beginning");
 }
 
 }  // namespace sphdrop
