@@ -40,8 +40,8 @@ class SharedEnergy {
   QuantisedSum booked_, to_come_;
 };
 
-/// For what a surface gains and loses: beyond 2^34 times its tension times the particles' spacing there is no drop, and
-/// a step's share of it in one particle is some 2^-17 of it.
+/// For what a surface gains and loses, J/m. In units of tension times spacing, a step gives a particle some 2^-17, many
+/// quanta, and up to 2^17 add up without rounding: more than the energy of the surface of 10^8 particles.
 inline double surface_energy_quantum(double tension, double spacing) {
   return 0x1p-34 * tension * spacing;
 }

@@ -19,9 +19,9 @@ struct CurvePiece {
   std::vector<std::int32_t> beyond;  ///< nodes that are there for their neighbours' sake
 };
 
-/// is_wanted: by node. `steps`: how far along the curve what is worked out looks. A curve of less than three nodes is
+/// is_wanted: by node. `steps`: how far along the curve what is worked out looks. A curve of fewer than three nodes is
 /// taken whole or not at all, so that a curve of the piece carries a force where the whole one does; with two steps or
-/// more, as soon, it has at least five nodes where the whole one has.
+/// more it also has five nodes where the whole one has as many.
 CurvePiece piece_of_curves(SurfaceCurves all, std::span<const char> is_wanted, int steps);
 
 }  // namespace sphdrop
